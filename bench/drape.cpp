@@ -25,6 +25,7 @@ constexpr auto k_rk4 = voile::Integrator::rk4;
 constexpr auto k_verlet = voile::Integrator::verlet;
 constexpr auto k_cotton = DrapeSubject::cotton;
 constexpr auto k_pinned = DrapeSubject::pinned_cotton;
+constexpr auto k_pinned_mesh = DrapeSubject::pinned_mesh;
 constexpr DrapeCase k_cases[] = {
     {"drape-128-rk4", 128, k_rk4},
     {"drape-128-verlet", 128, k_verlet},
@@ -37,6 +38,8 @@ constexpr DrapeCase k_cases[] = {
     {"drape-512-self", 512, k_verlet, true},
     {"budget-64", 64, k_verlet, false, k_pinned, 16},
     {"budget-128", 128, k_verlet, false, k_pinned, 16},
+    {"budget-64-mesh", 64, k_verlet, false, k_pinned_mesh, 16},
+    {"budget-128-mesh", 128, k_verlet, false, k_pinned_mesh, 16},
     {"budget-64-drape", 64, k_verlet, false, k_cotton, 16},
     {"budget-128-drape", 128, k_verlet, false, k_cotton, 16},
     {"budget-128-sheet", 128, k_verlet, false, DrapeSubject::sheet, 16},
@@ -86,6 +89,11 @@ void upload(TimedQueue& queue, voile::Solver& solver)
     queue.run([&](VkCommandBuffer cmd) { kept = voile::engine::take(solver.record_upload(cmd)); });
 }
 
+bool hangs(DrapeSubject subject)
+{
+    return subject == DrapeSubject::pinned_cotton || subject == DrapeSubject::pinned_mesh;
+}
+
 voile::GridCloth cloth_of(const DrapeCase& item)
 {
     voile::GridCloth grid = drape_grid(item.side);
@@ -95,7 +103,7 @@ voile::GridCloth cloth_of(const DrapeCase& item)
         return grid;
     grid.width = grid.depth = 1;
     grid.material = voile::cotton();
-    if (item.subject == DrapeSubject::pinned_cotton)
+    if (hangs(item.subject))
         grid.pins = {0, item.side - 1};
     return grid;
 }
@@ -111,8 +119,11 @@ Scene make_scene(TimedQueue& queue, const DrapeCase& item, const voile::MeshColl
     voile::SolverOptions options;
     options.tuning.workgroup_size = workgroup_size;
     Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
-    scene.cloth = voile::engine::take(scene.solver.add_cloth(cloth_of(item)));
-    if (item.subject != DrapeSubject::pinned_cotton)
+    const voile::GridCloth grid = cloth_of(item);
+    scene.cloth = item.subject == DrapeSubject::pinned_mesh
+                      ? add_as_mesh(scene.solver, grid, false, voile::BendingModel::springs)
+                      : voile::engine::take(scene.solver.add_cloth(grid));
+    if (!hangs(item.subject))
     {
         (void)voile::engine::take(scene.solver.add_collider(heart));
         (void)voile::engine::take(scene.solver.add_collider(voile::PlaneCollider{.offset = -0.4f}));
@@ -131,6 +142,8 @@ const char* describe(DrapeSubject subject)
         return "1 m of cotton in the drape scene";
     case DrapeSubject::pinned_cotton:
         return "1 m of cotton hanging from two corners";
+    case DrapeSubject::pinned_mesh:
+        return "1 m of cotton as a mesh, hanging from two corners";
     default:
         return "the drape scene";
     }
@@ -198,7 +211,7 @@ DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const S
         passes.print(result.substeps);
     const std::vector<double> stretches = structural_stretches(x, item.side, size);
     result.last_stretch = *std::max_element(stretches.begin(), stretches.end());
-    if (item.subject != DrapeSubject::pinned_cotton)
+    if (!hangs(item.subject))
         result.deep_fraction = fraction_deeper(x, heart, 0.005);
     result.gpu_median = quantile(times, 0.5);
     result.gpu_p95 = quantile(times, 0.95);

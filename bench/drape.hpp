@@ -17,6 +17,7 @@ enum class DrapeSubject
     sheet,         // the scene's sheet of 2.4 m
     cotton,        // 1 m of cotton in its place
     pinned_cotton, // 1 m of cotton that hangs from two corners, without colliders
+    pinned_mesh,   // the same as a mesh
 };
 
 const char* describe(DrapeSubject subject);

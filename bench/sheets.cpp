@@ -84,6 +84,10 @@ voile::ClothId add_as_mesh(voile::Solver& solver, const voile::GridCloth& grid, 
     mesh.material = fabric;
     mesh.integrator = grid.integrator;
     mesh.self_collision = grid.self_collision;
+    std::vector<uint32_t> pins;
+    for (const uint32_t pin : grid.pins)
+        pins.push_back(order[pin]);
+    mesh.pins = pins;
     return voile::engine::take(solver.add_cloth(mesh));
 }
 

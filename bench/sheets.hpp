@@ -21,7 +21,8 @@ voile::GridCloth drape_grid(uint32_t side);
 // The same with velocity Verlet.
 voile::GridCloth verlet_grid(uint32_t side, bool self_collision);
 
-// A grid of the drape scene as a triangle mesh, with the diagonals of the solver's grids, its material and integrator.
+// A grid of the drape scene as a triangle mesh, with the diagonals of the solver's grids, its material, integrator
+// and pins.
 voile::ClothId add_as_mesh(voile::Solver& solver, const voile::GridCloth& grid, bool shuffled,
                            voile::BendingModel bending);
 

@@ -3,7 +3,7 @@ add_dependencies(test_samples async_compute batch foreign_engine hello_cloth own
 voile_add_test(test_assets SOURCES engine/test_files.cpp engine/test_obj.cpp engine/test_save_obj.cpp engine/test_ply.cpp colliders/test_shapes.cpp engine/test_image_file.cpp
                LIBRARIES voile::engine)
 voile_add_test(test_bvh SOURCES geometry/test_bvh.cpp geometry/test_self_intersection.cpp colliders/test_bvh_cache.cpp geometry/test_closedness.cpp geometry/test_mesh_parts.cpp geometry/test_parallel.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_mesh_fans.cpp model/test_mesh_records.cpp model/test_range_allocator.cpp model/test_substep_plan.cpp
+voile_add_test(test_model SOURCES model/test_cooked.cpp model/test_limit_levels.cpp model/test_mesh_fans.cpp model/test_mesh_records.cpp model/test_range_allocator.cpp model/test_substep_plan.cpp
                                   colliders/test_cooked_collider.cpp
                LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_sleep SOURCES solver/test_sleep.cpp solver/test_wake.cpp solver/test_awake_patches.cpp pairs/test_sleeping_islands.cpp LIBRARIES voile::cloth_internal voile::engine)
@@ -139,12 +139,12 @@ add_test(NAME "recipes: vcpkg and Conan"
 voile_add_test(test_attachments SOURCES constraints/test_attachments.cpp constraints/test_springs.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_edits SOURCES solver/test_edits.cpp solver/test_teleport.cpp constraints/test_strain_limit.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_moving_colliders SOURCES colliders/test_moving_colliders.cpp colliders/test_many_colliders.cpp colliders/test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp contact/test_fast_colliders.cpp contact/test_round_colliders.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
+voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp contact/test_fast_colliders.cpp contact/test_limited_contact.cpp contact/test_round_colliders.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_removal.cpp solver/test_random_changes.cpp solver/test_collider_changes.cpp solver/test_substeps.cpp solver/test_ids.cpp solver/test_limits.cpp solver/test_bindings.cpp solver/buffer_table.cpp solver/test_ranges.cpp solver/test_lifetime.cpp solver/test_old_memory.cpp solver/test_scopes.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_depenetration SOURCES contact/test_solids.cpp contact/test_inside.cpp contact/test_pinch.cpp contact/test_depenetration.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_command_reuse SOURCES solver/test_command_reuse.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_output SOURCES solver/test_output.cpp solver/test_previous_positions.cpp solver/test_vertex_streams.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_softened_limit SOURCES constraints/test_softened_limit.cpp constraints/test_step_lengths.cpp LIBRARIES voile::cloth voile::engine voile_scene_meshes)
+voile_add_test(test_softened_limit SOURCES constraints/test_softened_limit.cpp constraints/test_softened_meshes.cpp constraints/test_step_lengths.cpp LIBRARIES voile::cloth voile::engine voile_scene_meshes)
 
 # The benchmark's files of results, and its options for them.
 if(TARGET cloth_bench)

@@ -65,7 +65,8 @@ Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceS
 {
     constexpr VkDeviceSize k_smallest = 16; // a descriptor needs a buffer
     const VkDeviceSize size = std::max(bytes, k_smallest);
-    if (size > context.max_buffer_bytes)
+    const bool is_bound = (usage & (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT)) != 0;
+    if (is_bound && size > context.max_buffer_bytes)
         return Error{std::string("buffer \"") + name + "\" needs " + size_text(size) + ", the device binds at most " +
                      size_text(context.max_buffer_bytes)};
 

@@ -209,7 +209,8 @@ void main()
     const PatchVertex self = patch_vertex(patch_index);
     if (self.asleep)
         return;
-    const bool limited = cloths[self.cloth].strain_limit > 0 && self.columns > 0;
+    const bool limited =
+        cloths[self.cloth].strain_limit > 0 && cloths[self.cloth].first_limit == VOILE_NO_LIMIT_LEVELS;
     const Grid g = grid_of(self);
     if (self.exists && !(limited && on_level(self.column_row, g.lines, 1 << g.shift)))
     {

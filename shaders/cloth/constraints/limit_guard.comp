@@ -34,10 +34,17 @@ void main()
         return;
     const FinePosition from = FinePosition(before[i].xyz, unpack_residual(residuals_before[i]));
     const FinePosition to = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
+    const vec3 v = velocities_before[i].xyz;
+    if (scale.position == 0 && scale.velocity == 0 && scale.shift_rate == 0) // what is undone may not be finite
+    {
+        positions[i].xyz = from.x;
+        residuals[i] = pack_residual(from);
+        velocities[i].xyz = v;
+        return;
+    }
     const vec3 shift = displacement(from, to);
     const FinePosition between = moved(from, scale.position * shift);
     positions[i].xyz = between.x;
     residuals[i] = pack_residual(between);
-    const vec3 v = velocities_before[i].xyz;
     velocities[i].xyz = v + scale.velocity * (velocities[i].xyz - v) + scale.shift_rate * shift;
 }

@@ -12,8 +12,8 @@
 // A level moves only the vertices on its lines. After it the vertices between take the mean displacement of their
 // neighbors (after Müller 2008, "Hierarchical position based dynamics"). The bound of the distance between far vertices
 // follows from the bounds of the springs between them, so a level limits nothing that the springs would not. A coarse
-// vertex has the mass of all that moves with it, which keeps momentum. limit_coarse.comp has taken the widest levels. A
-// mesh compares the ends of its edges in every pass.
+// vertex has the mass of all that moves with it, which keeps momentum. limit_coarse.comp has taken the widest levels. On
+// a mesh, and on a grid with pins between the lines of its levels, these are listed (limit_levels.cpp).
 // One thread per vertex.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
@@ -29,8 +29,12 @@ layout(VOILE_BINDING(next_positions)) buffer NextPositions { vec4 next_positions
 // w, except of the state: the relaxation of the vertex, from the pass before.
 layout(VOILE_BINDING(next_velocities)) writeonly buffer NextVelocities { vec4 next_velocities[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
-layout(VOILE_BINDING(mesh_springs)) readonly buffer MeshSprings { MeshSpring mesh_springs[]; };
-
+layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
+layout(VOILE_BINDING(membrane_corners)) readonly buffer MembraneCorners { MembraneCorner membrane_corners[]; };
+layout(VOILE_BINDING(limit_vertices)) readonly buffer LimitVertices { LimitVertex limit_vertices[]; };
+layout(VOILE_BINDING(limit_levels)) readonly buffer LimitLevels { LimitLevel limit_levels[]; };
+layout(VOILE_BINDING(limit_links)) readonly buffer LimitLinks { LimitLink limit_links[]; };
+layout(VOILE_BINDING(limit_parents)) readonly buffer LimitParents { LimitParent limit_parents[]; };
 layout(VOILE_BINDING(step_positions)) readonly buffer StepPositions { vec4 step_positions[]; };
 layout(VOILE_BINDING(step_velocities)) readonly buffer StepVelocities { vec4 step_velocities[]; };
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
@@ -66,6 +70,8 @@ bool smooths(uint cloth)
 {
     return push.spacing == 1 && is_softened(cloth) && push.pass + 2 >= VOILE_SOFTENED_STRAIN_PASSES;
 }
+
+#include "constraints/limit_triangles.glsl"
 
 // All neighbors are loaded before the first is used. The vertex itself stands for one that is missing.
 Correction limit_grid(PatchVertex self)
@@ -123,23 +129,52 @@ Correction between(PatchVertex self)
     return sum;
 }
 
-Correction limit_mesh(PatchVertex self, float inverse_mass)
+LimitVertex limit_vertex(PatchVertex self) { return limit_vertices[cloths[self.cloth].first_limit + self.local]; }
+
+// On a level that is listed.
+Correction limit_listed(PatchVertex self)
 {
     const uint cloth = self.cloth;
+    const uint level = findLSB(push.spacing);
+    const bool has_membrane = self.columns == 0 && (cloths[cloth].flags & VOILE_CLOTH_UNIFORM_SPRINGS) == 0;
+    if (level == 0 && has_membrane)
+        return limit_triangles(self);
+    const LimitVertex vertex = limit_vertex(self);
     Correction correction = k_no_correction;
-    const End end = end_at(self.index, inverse_mass);
-    const uint first = cloths[cloth].first_vertex;
-    const MeshVertex vertex = mesh_vertices[cloths[cloth].first_list + self.local];
-    for (uint s = 0; s < vertex.springs; ++s)
+    if (level > vertex.top)
+        return correction;
+    const LimitLevel own = limit_levels[vertex.first_level + level];
+    const End end = end_at(self.index, own.inverse_mass);
+    const float limit = cloths[cloth].strain_limit;
+    const float shear_limit = is_softened(cloth) ? max(limit, k_diagonal_limit) : limit;
+    for (uint k = 0; k < own.links; ++k)
     {
-        const MeshSpring entry = mesh_springs[vertex.first_spring + s * MESH_STRIDE];
-        const uint other = first + (entry.neighbor & ~VOILE_OPPOSITE_BIT);
-        if ((entry.neighbor & VOILE_OPPOSITE_BIT) == 0)
-            add_limit(correction, end, end_at(other, positions[other].w),
-                      (1 + cloths[cloth].strain_limit) * entry.rest_length,
-                      shortest_length(self.index, other, entry.rest_length));
+        const LimitLink link = limit_links[own.first_link + k];
+        const uint other_index = cloths[cloth].first_vertex + link.neighbor;
+        const End other = end_at(other_index, positions[other_index].w > 0 ? link.inverse_mass : 0);
+        add_limit(correction, end, other, (1 + mix(limit, shear_limit, link.shear)) * link.rest_length,
+                  level == 0 ? shortest_length(self.index, other_index, link.rest_length) : 0);
+        if (smooths(cloth) && end.inverse_mass > 0)
+            correction.v += k_smoothing * fraction_of(end, other) * (other.v - end.v);
     }
     return correction;
+}
+
+// The mean displacement and change of velocity of the parents, by their weights.
+Correction between_listed(PatchVertex self)
+{
+    const LimitVertex vertex = limit_vertex(self);
+    Correction sum = k_no_correction;
+    if (vertex.top != findLSB(push.spacing))
+        return sum;
+    for (uint k = 0; k < vertex.parents; ++k)
+    {
+        const LimitParent parent = limit_parents[vertex.first_parent + k];
+        const uint other = cloths[self.cloth].first_vertex + parent.vertex;
+        sum.x += parent.weight * (positions[other].xyz - step_positions[other].xyz);
+        sum.v += parent.weight * (velocities[other].xyz - step_velocities[other].xyz);
+    }
+    return sum;
 }
 
 void main()
@@ -153,12 +188,12 @@ void main()
     // What other cloths need changes nothing: their wider levels and further passes leave this one alone.
     const bool own_pass = push.spacing <= cloths[self.cloth].strain_spacing && push.pass < cloths[self.cloth].strain_passes;
     const bool limited = cloths[self.cloth].strain_limit > 0 && x.w > 0 && own_pass;
-    const bool grid = self.columns > 0;
+    const bool listed = cloths[self.cloth].first_limit != VOILE_NO_LIMIT_LEVELS;
     Correction correction = k_no_correction;
     if (limited && push.between == 0)
-        correction = grid ? limit_grid(self) : limit_mesh(self, x.w);
-    else if (limited && grid)
-        correction = between(self);
+        correction = listed ? limit_listed(self) : limit_grid(self);
+    else if (limited)
+        correction = listed ? between_listed(self) : between(self);
     vec3 shift = correction.x;
     if (limited && push.acceleration != 1) // this pass overwrites the result of the last but one
     {

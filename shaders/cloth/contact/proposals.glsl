@@ -19,7 +19,8 @@ Motion proposed_motion(uint i, uint cloth, vec3 proposed, out uint flags)
         corrections[i].substep == counted_substep(push.substep))
     {
         motion.displacement += corrections[i].shift;
-        motion.v += corrections[i].change;
+        if (push.limited_only == 0) // else no time passes, and features would take moving surfaces for ones at rest
+            motion.v += corrections[i].change;
         flags |= VOILE_VERTEX_TOUCHES_FEATURE;
     }
     return motion;

@@ -80,7 +80,7 @@ float farthest_of(vec3 point, SweptVertex vertex)
 float drift_from_path(FeatureCenter listed, FinePosition center, FinePosition earlier, FinePosition proposed)
 {
     const float duration = push.progress_next - push.progress_listed;
-    const float time = duration * seconds(push.substeps) / (push.progress_to - push.progress_from);
+    const float time = duration / step_input.rate;
     const vec3 from = from_origin(collider_index, collider_flags, center);
     const vec3 to = from + time * vec3(listed.velocity_x, listed.velocity_yz);
     const vec3 start = collider_moves ? to_collider(pose_listed, from) : from;

@@ -23,6 +23,8 @@ float along(FabricMatrix m, vec2 d) { return d.x * d.x * m.warp + d.y * d.y * m.
 
 // The least |F d|. A triangle with less has collapsed.
 const float k_least_stretch = 1e-4;
+// Of the squares of the stretch along the warp and the weft: less than this along a diagonal between them is rounding.
+const float k_rounding = 4e-7;
 
 // The deformation of a triangle.
 struct Deformation
@@ -41,8 +43,9 @@ struct FabricStress
 // `d`: the direction of the spring, a unit vector of the fabric.
 void add_direction(inout FabricStress sum, Deformation deformation, vec2 d, SpringClass spring, Viscosity viscosity)
 {
-    const float squared_excess = along(deformation.excess, d);
-    const float squared = max(1 + squared_excess, k_least_stretch * k_least_stretch);
+    const float least = max(k_least_stretch * k_least_stretch, k_rounding * (deformation.excess.warp + deformation.excess.weft));
+    const float squared_excess = max(along(deformation.excess, d), least - 1);
+    const float squared = max(1 + squared_excess, least);
     const float stretch = sqrt(squared);
     const float stretch_rate = along(deformation.rate, d) / squared; // 1/s, of |F d| over itself
     float tension = spring.stiffness * squared_excess / (squared + stretch) + spring.damping * stretch_rate;
@@ -53,7 +56,8 @@ void add_direction(inout FabricStress sum, Deformation deformation, vec2 d, Spri
         const float fraction = clamp((change - k_viscous_strain) * viscosity.sharpness, 0, 1);
         tension += min(1 / squared, 1) * viscosity.scale * fraction * spring.stiffness * stretch_rate;
     }
-    sum.energy += 0.5 * spring.stiffness * squared_excess * squared_excess / ((1 + stretch) * (1 + stretch));
+    const float strain = squared_excess / (1 + stretch); // less rounding than stretch - 1
+    sum.energy += 0.5 * spring.stiffness * strain * strain;
     sum.stress.warp += tension * d.x * d.x;
     sum.stress.weft += tension * d.y * d.y;
     sum.stress.mixed += tension * d.x * d.y;

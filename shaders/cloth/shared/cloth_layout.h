@@ -17,6 +17,9 @@
 #define VOILE_CLASS_DIAGONAL 4
 #define VOILE_MEMBRANE_SPRINGS 3
 
+// In ClothRecord.first_limit.
+#define VOILE_NO_LIMIT_LEVELS 0xffffffffu
+
 // Absolute limits of the input along each axis, as in voile/ranges.hpp.
 #define VOILE_MOST_COORDINATE 1e6 // m
 #define VOILE_MOST_SPEED 1e4      // m/s
@@ -92,7 +95,7 @@ struct ClothRecord
     float pair_mass;        // kg, of its heaviest vertex
     uint first_fan;         // of a mesh that collides with itself: its first MeshFan
     float softened_substep; // s; if longer than a substep, the cloth is softened as if it were one
-    uint padding;
+    uint first_limit;       // its first LimitVertex; VOILE_NO_LIMIT_LEVELS: the levels of its strain limit are lines of the grid
     SpringClass springs[VOILE_SPRING_CLASSES];
 };
 

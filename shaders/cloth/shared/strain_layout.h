@@ -23,10 +23,43 @@ VOILE_INLINE float strain_acceleration(uint i, float before)
     return i < 2 ? 1 : i == 2 ? 2 / (2 - squared) : 4 / (4 - squared * before);
 }
 
+// A vertex of a cloth whose levels are listed (limit_levels.cpp): the first of its entries in LimitLevel[], one for each level from 0
+// to `top`. On the next level its parents stand for it.
+struct LimitVertex
+{
+    uint first_level;
+    uint top;
+    uint first_parent;
+    uint parents;
+};
+
+// A vertex on a level.
+struct LimitLevel
+{
+    uint first_link;
+    uint links;
+    float inverse_mass; // of all that moves with it, relative to others of the cloth
+    uint padding;
+};
+
+struct LimitLink
+{
+    uint neighbor;      // counted within the cloth
+    float rest_length;  // m, along the cloth
+    float shear;        // 0 along warp and weft, 1 halfway between
+    float inverse_mass; // of the neighbor on this level
+};
+
+struct LimitParent
+{
+    uint vertex; // counted within the cloth
+    float weight;
+};
+
 // Push constants of one pass of the strain limit.
 struct StrainPush
 {
-    uint spacing;       // of the level, in grid lines
+    uint spacing;       // of the level, in grid lines: 1 << level
     uint between;       // 1: vertices between the lines of the level before take their neighbors' mean displacement
     float acceleration; // of the passes of a level (Chebyshev); 1: none
     uint pass;          // on its level; in the first one vertices have no relaxation from a pass before
@@ -70,6 +103,10 @@ struct LimitScalePush
 };
 
 #ifdef __cplusplus
+static_assert(sizeof(LimitVertex) == 16);
+static_assert(sizeof(LimitLevel) == 16);
+static_assert(sizeof(LimitLink) == 16);
+static_assert(sizeof(LimitParent) == 8);
 static_assert(sizeof(LimitWork) == 36);
 static_assert(sizeof(LimitScale) == 24);
 #endif

@@ -84,8 +84,10 @@ struct Material
 // - Cloth exceeds the limit for longer where corrections would compress stiff springs. Cotton that falls on a sphere
 //   from 0.1 m stretches to 2 times a limit of 1 % for a moment, and rests at 1.5 times. With a limit of 0.1 % it
 //   stretches to 21 times, and rests at 6 times.
-// - On a mesh, corrections have no coarse levels: the lower end of a very soft cloth follows over several steps.
-//   Tethers help.
+// - On a mesh of a Fabric it limits the stretch of each triangle along warp, weft and both diagonals; on one of a
+//   Material, that of its edges.
+// - The coarse levels of a mesh, and of a grid with pins away from its borders, know the pins that it has when it is
+//   uploaded. Pins that are set later hold less well.
 
 using ClothMaterial = std::variant<Fabric, Material>;
 

@@ -220,12 +220,9 @@ void apply_mesh_material(const MeshTopology& mesh, const Material& m, shared::Cl
 // their diagonals, and more than half of each correction would overshoot.
 constexpr float k_strain_relaxation = 0.5f;
 
-// Of a grid: half of the narrowest level that limit_coarse.comp can take. Of a mesh, which has no levels: a grid of its
-// size would begin there.
-uint32_t strain_spacing(const shared::ClothRecord& cloth)
+// Half of the narrowest level that limit_coarse.comp can take.
+uint32_t grid_strain_spacing(const shared::ClothRecord& cloth)
 {
-    if (cloth.columns == 0)
-        return std::bit_floor(std::max(static_cast<uint32_t>(std::sqrt(static_cast<double>(cloth.vertices))) / 2, 1u));
     const auto lines = [](uint32_t all, uint32_t spacing) { return (all - 2 + spacing) / spacing + 1; };
     uint32_t spacing = 1;
     while (uint64_t{lines(cloth.columns, 2 * spacing)} * lines(cloth.rows, 2 * spacing) > VOILE_LIMIT_COARSE_VERTICES)
@@ -245,7 +242,6 @@ void apply_surface(const M& m, shared::ClothRecord& record)
     record.gravity_scale = m.gravity_scale;
     record.strain_limit = m.strain_limit;
     record.strain_relaxation = k_strain_relaxation;
-    record.strain_spacing = strain_spacing(record);
     record.strain_passes = VOILE_STRAIN_PASSES;
 }
 
@@ -275,6 +271,14 @@ void set_pair_distances(const ClothModel& cloth, shared::ClothRecord& record)
 
 } // namespace
 
+void set_strain_spacing(ClothModel& cloth)
+{
+    if (cloth.limit_levels)
+        cloth.record.strain_spacing = 1u << (cloth.limit_levels->count - 1);
+    else
+        cloth.record.strain_spacing = cloth.mesh ? 1 : grid_strain_spacing(cloth.record);
+}
+
 double density(const ClothMaterial& material)
 {
     if (const auto* fabric = std::get_if<Fabric>(&material))
@@ -295,6 +299,7 @@ void apply_material(ClothModel& cloth)
     const auto* fabric = std::get_if<Fabric>(&cloth.material);
     record.flags = cloth.integrator == Integrator::verlet ? VOILE_CLOTH_VERLET : 0;
     std::visit([&](const auto& m) { apply_surface(m, record); }, cloth.material);
+    set_strain_spacing(cloth);
     record.linear_drag = fabric ? 0 : std::get<Material>(cloth.material).linear_drag;
     if (cloth.mesh && fabric)
         apply_mesh_fabric(*cloth.mesh, *fabric, record);

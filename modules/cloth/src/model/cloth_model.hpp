@@ -4,6 +4,7 @@
 #include "voile/attachments.hpp"
 #include "voile/descriptions.hpp"
 
+#include "model/limit_levels.hpp"
 #include "model/mesh_fans.hpp"
 #include "model/mesh_lists.hpp"
 #include "model/mesh_topology.hpp"
@@ -36,8 +37,8 @@ struct Extent
     [[nodiscard]] bool empty() const { return min.x > max.x; }
 };
 
-// Offsets in `record` (first_vertex, first_list, first_fan) are those of the solver's buffers. They stay as long as the
-// cloth.
+// Offsets in `record` (first_vertex, first_list, first_fan, first_limit) are those of the solver's buffers. They stay
+// as long as the cloth.
 struct ClothModel
 {
     std::string name;
@@ -52,10 +53,11 @@ struct ClothModel
     bool wake_due = false;      // it must not sleep in the next step
     ClothMaterial material;
     Integrator integrator = Integrator::rk4;
-    std::shared_ptr<const MeshTopology> mesh; // none: a grid. Instances of a cooked cloth share it
-    std::shared_ptr<const MeshLists> lists;   // of a mesh, as they are uploaded; shared, too
-    std::shared_ptr<const MeshFans> fans;     // of a mesh that collides with itself; shared, too
-    glm::vec2 spacing{0.f};                   // m, of a grid along a row and along a column
+    std::shared_ptr<const MeshTopology> mesh;        // none: a grid. Instances of a cooked cloth share it
+    std::shared_ptr<const MeshLists> lists;          // of a mesh, as they are uploaded; shared, too
+    std::shared_ptr<const MeshFans> fans;            // of a mesh that collides with itself; shared, too
+    std::shared_ptr<const LimitLevels> limit_levels; // from the first upload on, if they are listed; shared, too
+    glm::vec2 spacing{0.f};                          // m, of a grid along a row and along a column
     // Masses that the host gave, relative to those of the material: the largest inverse mass in 1/kg times the vertex's
     // area (Fabric) or mass scale (Material). 0: all are the material's.
     double own_inverse_mass = 0;
@@ -110,6 +112,9 @@ bool bends_isometrically(const ClothMaterial& material);
 // Sets the members of the record that follow from the material, not offsets (first_vertex, first_list, first_fan) and
 // sizes.
 void apply_material(ClothModel& cloth);
+
+// Sets the widest level that limit_strain.comp takes.
+void set_strain_spacing(ClothModel& cloth);
 
 // Fills the start of a cloth whose record is complete: masses from the material unless they are given.
 void set_start(ClothModel& cloth, const ClothInput& input, std::span<const glm::dvec3> world_positions);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace voile
 {
@@ -85,6 +86,7 @@ Result<ClothId> Model::append(ClothModel cloth, const ClothInput& input, std::sp
     if (indices)
         cloth.first_triangle = triangles.allocate(count_triangles(cloth));
     record.sleep_speed = input.sleep_speed;
+    record.first_limit = VOILE_NO_LIMIT_LEVELS;
     apply_material(cloth);
     set_start(cloth, input, world_positions);
     if (cloth.self_collision)
@@ -99,11 +101,54 @@ void Model::remove(ClothId id)
     vertices.release(cloth.record.first_vertex, cloth.record.vertices);
     lists.release(cloth.lists.get());
     fans.release(cloth.fans.get());
+    limit_levels.release(cloth.limit_levels.get());
     trees.remove(cloth);
     if (indices)
         triangles.release(cloth.first_triangle, count_triangles(cloth));
     patches -= count_patches(cloth.record, limits.workgroup_size);
     cloths.remove(id);
+}
+
+namespace
+{
+
+// What the levels of a cloth depend on, but for its springs: instances have the same.
+struct LimitShape
+{
+    const MeshTopology* mesh;
+    uint32_t columns;
+    uint32_t rows;
+    float spacing_x; // m
+    float spacing_y;
+    std::vector<uint32_t> pins;
+
+    auto operator<=>(const LimitShape&) const = default;
+};
+
+LimitShape limit_shape(const ClothModel& cloth)
+{
+    return {cloth.mesh.get(), cloth.record.columns, cloth.record.rows,
+            cloth.spacing.x,  cloth.spacing.y,      pinned_vertices(cloth)};
+}
+
+} // namespace
+
+void Model::list_limit_levels()
+{
+    std::map<LimitShape, std::shared_ptr<const LimitLevels>> made;
+    for (auto [index, cloth] : cloths)
+    {
+        if (cloth.uploaded || cloth.limit_levels || !needs_limit_levels(cloth))
+            continue;
+        std::shared_ptr<const LimitLevels>& levels = made[limit_shape(cloth)];
+        if (!levels)
+            levels = std::make_shared<const LimitLevels>(make_limit_levels(cloth));
+        cloth.limit_levels = levels;
+        const auto& placement = limit_levels.acquire(
+            levels, {levels->vertices.size(), levels->levels.size(), levels->links.size(), levels->parents.size()});
+        cloth.record.first_limit = static_cast<uint32_t>(placement.first[k_limit_vertices]);
+        set_strain_spacing(cloth);
+    }
 }
 
 } // namespace voile

@@ -50,6 +50,16 @@ enum FanArray : size_t
     k_fan_arrays
 };
 
+// Those of LimitLevels.
+enum LimitArray : size_t
+{
+    k_limit_vertices,
+    k_limit_levels,
+    k_limit_links,
+    k_limit_parents,
+    k_limit_arrays
+};
+
 // All cloths of a solver, and the anchors of their attachments. Each cloth owns its arrays, and ranges of the solver's
 // buffers for them.
 struct Model
@@ -59,6 +69,7 @@ struct Model
     RangeAllocator vertices;
     SharedRanges<MeshLists, k_list_arrays> lists;
     SharedRanges<MeshFans, k_fan_arrays> fans;
+    SharedRanges<LimitLevels, k_limit_arrays> limit_levels;
     RangeAllocator triangles; // of cloths, in the index buffer
     bool indices = false;     // there is one: OutputOptions::indices
     ClothTrees trees;
@@ -75,6 +86,10 @@ struct Model
     Result<ClothId> add(const MeshCloth& cloth);
     // Requires that the cloth exists.
     void remove(ClothId cloth);
+
+    // Lists the levels of the strain limit on cloths that are not uploaded yet, if they need lists. Instances with the
+    // same pins share them.
+    void list_limit_levels();
 
 private:
     // A mesh's lists and fans as this solver uploads them; instances share them.

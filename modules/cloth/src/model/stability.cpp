@@ -78,7 +78,7 @@ Softening softening_of(const ClothModel& cloth, const Step& step, const SubstepP
 StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const Softening& softening)
 {
     const float own = std::visit([](const auto& m) { return m.strain_limit; }, cloth.material);
-    if (own > 0 || step.softened_strain_limit == 0 || step.substeps > 0 || cloth.mesh || !softening.is_soft)
+    if (own > 0 || step.softened_strain_limit == 0 || step.substeps > 0 || !softening.is_soft)
         return {own, VOILE_STRAIN_PASSES};
     return {step.softened_strain_limit, VOILE_SOFTENED_STRAIN_PASSES};
 }

@@ -43,8 +43,7 @@ inline StrainLimit strain_limit(const shared::ClothRecord& record)
 {
     return {record.strain_limit, record.strain_passes};
 }
-// Its material's. If that has none and the step softens the cloth, the step's. Without coarse levels, as on a mesh, so
-// few passes would reach nothing.
+// Its material's. If that has none and the step softens the cloth, the step's.
 StrainLimit strain_limit(const ClothModel& cloth, const Step& step, const Softening& softening);
 
 // Of the symmetric matrix (xx, xy; xy, yy).

@@ -44,6 +44,10 @@ struct BufferCounts
     uint64_t fans = 0;
     uint64_t wedges = 0;
     uint64_t owners = 0;
+    uint64_t limit_vertices = 0;
+    uint64_t limit_levels = 0;
+    uint64_t limit_links = 0;
+    uint64_t limit_parents = 0;
     uint64_t colliders = 0;
     uint64_t nodes = 0;
     uint64_t triangles = 0;

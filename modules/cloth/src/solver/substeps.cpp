@@ -234,6 +234,7 @@ void BatchRecorder::record_features(uint32_t substep)
     const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     const ContactInterval interval = contact_interval(substep);
     const ItemRange items = feature_items();
+    const uint32_t listed = std::min(substep, substeps_ - 1) / list_period_ * list_period_;
     const shared::FeaturePush push{of_level_0(interval.count),
                                    progress(interval.first),
                                    progress(substep + 1),
@@ -241,8 +242,8 @@ void BatchRecorder::record_features(uint32_t substep)
                                    substep,
                                    device_.near_stride,
                                    lists_.patches.first,
-                                   progress(substep - substep % list_period_),
-                                   progress(std::min(substep - substep % list_period_ + list_period_, substeps_)),
+                                   progress(listed),
+                                   progress(std::min(listed + list_period_, substeps_)),
                                    items.first,
                                    items.count,
                                    word,
@@ -314,6 +315,8 @@ const gpu::Kernel& BatchRecorder::contact_kernel() const
 void BatchRecorder::record_bounds()
 {
     record_attachments(substeps_, 0);
+    if (solver_.passes.features)
+        record_features(substeps_);
     record_contact(substeps_);
 }
 

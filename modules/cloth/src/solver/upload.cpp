@@ -83,6 +83,25 @@ void stage_fans(Staging& staging, const SharedRanges<MeshFans, k_fan_arrays>::Pl
     staging.add(buffer::mesh_owners, placement.first[k_fan_owners], fans.owners);
 }
 
+// The levels of the strain limit on a cloth. Vertices and levels count theirs from the first entries of all cloths.
+void stage_limit_levels(Staging& staging, const SharedRanges<LimitLevels, k_limit_arrays>::Placement& placement)
+{
+    const LimitLevels& listed = *placement.owner;
+    std::vector<shared::LimitVertex> vertices(listed.vertices.begin(), listed.vertices.end());
+    for (shared::LimitVertex& vertex : vertices)
+    {
+        vertex.first_level += static_cast<uint32_t>(placement.first[k_limit_levels]);
+        vertex.first_parent += static_cast<uint32_t>(placement.first[k_limit_parents]);
+    }
+    std::vector<shared::LimitLevel> levels(listed.levels.begin(), listed.levels.end());
+    for (shared::LimitLevel& level : levels)
+        level.first_link += static_cast<uint32_t>(placement.first[k_limit_links]);
+    staging.add_copy(buffer::limit_vertices, placement.first[k_limit_vertices], vertices);
+    staging.add_copy(buffer::limit_levels, placement.first[k_limit_levels], levels);
+    staging.add(buffer::limit_links, placement.first[k_limit_links], listed.links);
+    staging.add(buffer::limit_parents, placement.first[k_limit_parents], listed.parents);
+}
+
 void stage_collider(Staging& staging, const ColliderModel& collider, uint32_t index)
 {
     staging.add_copy(buffer::colliders, index, std::vector{shown_record(collider)});
@@ -173,6 +192,7 @@ Staging stage_new(Solver::State& solver)
     staging.add_copy(buffer::deforming_reach, 0, std::vector<uint32_t>{0});
     solver.model.lists.for_each_new([&](const auto& placement) { stage_lists(staging, placement); });
     solver.model.fans.for_each_new([&](const auto& placement) { stage_fans(staging, placement); });
+    solver.model.limit_levels.for_each_new([&](const auto& placement) { stage_limit_levels(staging, placement); });
     for (auto [index, collider] : models.colliders)
     {
         const shared::ColliderRecord before = collider.record;
@@ -247,6 +267,10 @@ BufferCounts count_entries(const Solver::State& solver)
             .fans = model.fans.end(k_fan_vertices),
             .wedges = model.fans.end(k_fan_wedges),
             .owners = model.fans.end(k_fan_owners),
+            .limit_vertices = model.limit_levels.end(k_limit_vertices),
+            .limit_levels = model.limit_levels.end(k_limit_levels),
+            .limit_links = model.limit_levels.end(k_limit_links),
+            .limit_parents = model.limit_levels.end(k_limit_parents),
             .colliders = models.colliders.size(),
             .nodes = models.hierarchies.end(k_hierarchy_nodes),
             .triangles = models.hierarchies.end(k_hierarchy_triangles),
@@ -306,6 +330,7 @@ void mark_uploaded(Solver::State& solver)
     }
     solver.model.lists.mark_uploaded();
     solver.model.fans.mark_uploaded();
+    solver.model.limit_levels.mark_uploaded();
     solver.model.trees.mark_uploaded();
     solver.collider_models.hierarchies.mark_uploaded();
     solver.collider_models.features.mark_uploaded();
@@ -353,6 +378,7 @@ Result<Upload> Solver::record_upload(VkCommandBuffer cmd)
     const JobScope scope(s.options.jobs);
     if (s.options.feature_contact)
         update_features(s.collider_models, s.model);
+    s.model.list_limit_levels();
     auto growth = grow(s.context, s.kernels, s.device ? &*s.device : nullptr, count_entries(s), s.statistics,
                        s.options.output.usage);
     if (!growth)
