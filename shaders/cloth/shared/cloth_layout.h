@@ -95,7 +95,7 @@ struct ClothRecord
     float pair_mass;        // kg, of its heaviest vertex
     uint first_fan;         // of a mesh that collides with itself: its first MeshFan
     float softened_substep; // s; if longer than a substep, the cloth is softened as if it were one
-    uint first_limit;       // its first LimitVertex; VOILE_NO_LIMIT_LEVELS: the levels of its strain limit are lines of the grid
+    uint first_limit;       // its first LimitVertex; VOILE_NO_LIMIT_LEVELS: levels are lines of the grid
     SpringClass springs[VOILE_SPRING_CLASSES];
 };
 

@@ -206,9 +206,9 @@ enum class Sidedness
 // vertices (SolverOptions::feature_contact). Where colliders close on cloth, they hold it until they part. Cloth at
 // rest on a collider stays at rest.
 //
-// Cloth that is inside colliders at the start of a step is moved out on one side, at less than 2.5 m/s
+// Cloth that is inside a collider at the start of a step is moved out on one side, at less than 2.5 m/s
 // (SolverOptions::depenetration): inside a sphere, a capsule, a box, or a closed mesh that pushes outwards. Overlapping
-// colliders are one solid.
+// colliders are one solid. Several that are apart may throw it.
 //
 // docs/contact.md has the limits with their numbers: fast and thin colliders, strain limits, layers of cloth, friction
 // at edges.

@@ -191,6 +191,7 @@ Result<void> Solver::reset(ClothId cloth)
     if (auto exists = state_->check(cloth); !exists)
         return exists;
     add_state_edit(state_->edits, cloth, VOILE_EDIT_RESET, glm::mat4(1), state_->find(cloth)->velocity);
+    state_->edits.limits.insert(cloth.index); // no reserve of energy
     return {};
 }
 
