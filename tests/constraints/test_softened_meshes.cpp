@@ -208,17 +208,19 @@ TEST_CASE("a mesh on a budget keeps its size in a frame of half a second")
     CHECK(low > before - 0.2f);
 }
 
-// The reserve of energy of the strain limit was that of before: 0.7 mm after 40 frames.
+// The reserve of energy of the strain limit was that of before.
 TEST_CASE("a mesh on a budget moves after a reset as it did at first, to the bit")
 {
     ClothHarness harness;
-    const ClothMesh mesh = shuffled(14);
-    const voile::ClothId id = take(harness.solver.add_cloth(cloth_of(mesh, {nearest(mesh, {0, 0, 0})})));
+    const ClothMesh mesh = shuffled(13);
+    voile::MeshCloth cloth = cloth_of(mesh, {nearest(mesh, {0, 0, 0}), nearest(mesh, {1, 0, 0})});
+    cloth.transform = glm::rotate(glm::mat4(1), 1.67f, glm::vec3(1, 0, 0)); // it hangs almost
+    const voile::ClothId id = take(harness.solver.add_cloth(cloth));
     harness.upload();
     std::vector<glm::vec4> ends[2];
     for (std::vector<glm::vec4>& end : ends)
     {
-        harness.step({.max_substeps = 16}, 20);
+        harness.step({.max_substeps = 16}, 40);
         end = harness.positions(id);
         take(harness.solver.reset(id));
     }
