@@ -203,7 +203,7 @@ TEST_CASE("the levels of a strain limit do not depend on the number of threads")
     CHECK(tasks > 0);
 }
 
-TEST_CASE("instances with the same pins share the levels of their strain limit")
+TEST_CASE("instances with the same pins and masses share the levels of their strain limit")
 {
     const tests::ClothMesh mesh = tests::jittered_sheet(12, 9);
     voile::Model model;
@@ -218,6 +218,17 @@ TEST_CASE("instances with the same pins share the levels of their strain limit")
     }
     model.list_limit_levels();
     CHECK(model.limit_levels.end(voile::k_limit_vertices) == 2 * mesh.positions.size());
+    voile::MeshCloth heavy;
+    heavy.cooked = cooked.value();
+    heavy.pins = std::vector<uint32_t>{0};
+    std::vector<float> inverse_masses(mesh.positions.size(), 100);
+    inverse_masses[5] = 0; // as if pinned
+    heavy.inverse_masses = inverse_masses;
+    const auto id = model.add(heavy);
+    REQUIRE(id);
+    model.list_limit_levels();
+    CHECK(model.limit_levels.end(voile::k_limit_vertices) == 3 * mesh.positions.size());
+    CHECK(voile::pinned_vertices(*model.cloths.find(id.value())) == std::vector<uint32_t>{0, 5});
 }
 
 TEST_CASE("a grid has levels in lists only if it has pins between its lines")

@@ -83,6 +83,9 @@ std::vector<uint32_t> pinned_vertices(const ClothModel& cloth)
     for (const Attachment& attachment : cloth.attachments)
         if (std::isinf(attachment.stiffness))
             pinned.push_back(attachment.vertex);
+    for (uint32_t i = 0; i < cloth.start.size(); ++i)
+        if (cloth.start[i].w == 0)
+            pinned.push_back(i);
     std::ranges::sort(pinned);
     return pinned;
 }

@@ -29,7 +29,7 @@ struct LimitLevels
 // Whether the levels of a cloth are to be listed: those of a grid are its lines, unless it has pins between them.
 bool needs_limit_levels(const ClothModel& cloth);
 
-// In ascending order.
+// Attached ones and those without an inverse mass, in ascending order.
 std::vector<uint32_t> pinned_vertices(const ClothModel& cloth);
 
 // Pinned vertices are on a level before others, so that all levels know what holds the cloth. Runs on several threads.

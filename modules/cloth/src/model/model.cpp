@@ -4,6 +4,7 @@
 #include "model/pair_order.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -112,7 +113,7 @@ void Model::remove(ClothId id)
 namespace
 {
 
-// What the levels of a cloth depend on, but for its springs: instances have the same.
+// What the levels of a cloth depend on: instances have the same.
 struct LimitShape
 {
     const MeshTopology* mesh;
@@ -120,6 +121,8 @@ struct LimitShape
     uint32_t rows;
     float spacing_x; // m
     float spacing_y;
+    std::array<bool, VOILE_SPRING_CLASSES> springs; // that it has
+    std::vector<float> inverse_masses;              // of the vertices, if the host gave them
     std::vector<uint32_t> pins;
 
     auto operator<=>(const LimitShape&) const = default;
@@ -127,8 +130,15 @@ struct LimitShape
 
 LimitShape limit_shape(const ClothModel& cloth)
 {
-    return {cloth.mesh.get(), cloth.record.columns, cloth.record.rows,
-            cloth.spacing.x,  cloth.spacing.y,      pinned_vertices(cloth)};
+    LimitShape shape{
+        cloth.mesh.get(),      cloth.record.columns, cloth.record.rows, cloth.spacing.x, cloth.spacing.y, {}, {},
+        pinned_vertices(cloth)};
+    for (size_t i = 0; i < shape.springs.size(); ++i)
+        shape.springs[i] = cloth.record.springs[i].stiffness > 0;
+    if (cloth.own_inverse_mass > 0)
+        for (const glm::vec4& start : cloth.start)
+            shape.inverse_masses.push_back(start.w);
+    return shape;
 }
 
 } // namespace

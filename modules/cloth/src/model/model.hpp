@@ -88,7 +88,7 @@ struct Model
     void remove(ClothId cloth);
 
     // Lists the levels of the strain limit on cloths that are not uploaded yet, if they need lists. Instances with the
-    // same pins share them.
+    // same pins and masses share them.
     void list_limit_levels();
 
 private:
