@@ -30,7 +30,7 @@ float lines_with(int line, int lines, int spacing, float border)
     return self + 0.5 * float(max(line - beside.x - 1, 0) + max(beside.y - line - 1, 0));
 }
 
-// The strain limit of diagonals of softened grids, unless that of the cloth is larger. They lengthen as cloth shears, and
+// The strain limit of diagonals of softened cloth, unless that of the cloth is larger. They lengthen as cloth shears, and
 // cloth shears to lie on anything round. A limit that works in every step shakes cloth until friction no longer holds
 // it: silk of 1 m slid off a sphere of 0.3 m. By 0.2 it shears by 26 degrees.
 const float k_diagonal_limit = 0.2;
@@ -80,11 +80,16 @@ ivec2 level_offset(int k) { return (k < 4 ? 1 : -1) * k_spring_offsets[k % 4]; }
 
 bool is_softened(uint cloth) { return cloths[cloth].strain_passes == VOILE_SOFTENED_STRAIN_PASSES; }
 
+float diagonal_limit(uint cloth)
+{
+    const float limit = cloths[cloth].strain_limit;
+    return is_softened(cloth) ? max(limit, k_diagonal_limit) : limit;
+}
+
 // The strain limit of the spring to the k-th of eight neighbors.
 float level_limit(int k, uint cloth)
 {
-    const float limit = cloths[cloth].strain_limit;
-    return level_class(k) >= 2 && is_softened(cloth) ? max(limit, k_diagonal_limit) : limit;
+    return level_class(k) >= 2 ? diagonal_limit(cloth) : cloths[cloth].strain_limit;
 }
 
 // Where a vertex lies between lines of the level before: it takes their displacements by weight.

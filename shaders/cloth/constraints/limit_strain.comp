@@ -146,7 +146,7 @@ Correction limit_listed(PatchVertex self)
     const LimitLevel own = limit_levels[vertex.first_level + level];
     const End end = end_at(self.index, own.inverse_mass);
     const float limit = cloths[cloth].strain_limit;
-    const float shear_limit = is_softened(cloth) ? max(limit, k_diagonal_limit) : limit;
+    const float shear_limit = diagonal_limit(cloth);
     for (uint k = 0; k < own.links; ++k)
     {
         const LimitLink link = limit_links[own.first_link + k];

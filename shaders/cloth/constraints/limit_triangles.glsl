@@ -83,15 +83,15 @@ Correction limit_triangles(PatchVertex self)
     const End end = end_at(self.index, positions[self.index].w);
     const MeshVertex vertex = mesh_vertices[cloths[self.cloth].first_list + self.local];
     const float limit = cloths[self.cloth].strain_limit;
-    const float diagonal_limit = is_softened(self.cloth) ? max(limit, k_diagonal_limit) : limit;
+    const float shear_limit = diagonal_limit(self.cloth);
     const float k_half = 0.70710678;
     for (uint k = 0; k < vertex.corners && end.inverse_mass > 0; ++k)
     {
         const LimitTriangle t = limit_triangle(self, end, vertex.first_corner + k * MESH_STRIDE);
         add_limit_along(correction, t, vec2(1, 0), limit);
         add_limit_along(correction, t, vec2(0, 1), limit);
-        add_limit_along(correction, t, vec2(k_half, k_half), diagonal_limit);
-        add_limit_along(correction, t, vec2(k_half, -k_half), diagonal_limit);
+        add_limit_along(correction, t, vec2(k_half, k_half), shear_limit);
+        add_limit_along(correction, t, vec2(k_half, -k_half), shear_limit);
         for (uint other = 1; other < 3 && smooths(self.cloth); ++other) // most edges belong to two triangles
         {
             const End to = t.end[(t.own + other) % 3];

@@ -23,8 +23,8 @@ VOILE_INLINE float strain_acceleration(uint i, float before)
     return i < 2 ? 1 : i == 2 ? 2 / (2 - squared) : 4 / (4 - squared * before);
 }
 
-// A vertex of a cloth whose levels are listed (limit_levels.cpp): the first of its entries in LimitLevel[], one for each level from 0
-// to `top`. On the next level its parents stand for it.
+// A vertex of a cloth whose levels are listed (limit_levels.cpp): the first of its entries in LimitLevel[], one for
+// each level from 0 to `top`. On the next level its parents stand for it.
 struct LimitVertex
 {
     uint first_level;

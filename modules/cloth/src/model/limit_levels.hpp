@@ -5,10 +5,7 @@
 #include "geometry/shared_array.hpp"
 #include "shared/strain_layout.h"
 
-#include <glm/glm.hpp>
-
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace voile
