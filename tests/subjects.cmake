@@ -141,10 +141,10 @@ voile_add_test(test_edits SOURCES solver/test_edits.cpp solver/test_teleport.cpp
 voile_add_test(test_moving_colliders SOURCES colliders/test_moving_colliders.cpp colliders/test_many_colliders.cpp colliders/test_deforming_colliders.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp contact/test_fast_colliders.cpp contact/test_limited_contact.cpp contact/test_round_colliders.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_removal.cpp solver/test_random_changes.cpp solver/test_collider_changes.cpp solver/test_substeps.cpp solver/test_ids.cpp solver/test_limits.cpp solver/test_bindings.cpp solver/buffer_table.cpp solver/test_ranges.cpp solver/test_lifetime.cpp solver/test_old_memory.cpp solver/test_scopes.cpp LIBRARIES voile::cloth_internal voile::engine)
-voile_add_test(test_depenetration SOURCES contact/test_solids.cpp contact/test_inside.cpp contact/test_pinch.cpp contact/test_depenetration.cpp LIBRARIES voile::cloth voile::engine)
+voile_add_test(test_depenetration SOURCES contact/test_solids.cpp contact/test_inside.cpp contact/test_pinch.cpp contact/test_depenetration.cpp contact/test_separate_solids.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_command_reuse SOURCES solver/test_command_reuse.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_output SOURCES solver/test_output.cpp solver/test_previous_positions.cpp solver/test_vertex_streams.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_softened_limit SOURCES constraints/test_softened_limit.cpp constraints/test_softened_meshes.cpp constraints/test_step_lengths.cpp LIBRARIES voile::cloth voile::engine voile_scene_meshes)
+voile_add_test(test_softened_limit SOURCES constraints/test_softened_limit.cpp constraints/test_softened_meshes.cpp constraints/test_step_lengths.cpp constraints/test_shaking.cpp LIBRARIES voile::cloth_internal voile::engine voile_scene_meshes)
 
 # The benchmark's files of results, and its options for them.
 if(TARGET cloth_bench)

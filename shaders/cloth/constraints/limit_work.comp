@@ -52,8 +52,9 @@ Conservative conservative_forces(PatchVertex self, FinePosition x, float mass)
 {
     const uint cloth = self.cloth;
     const bool verlet = is_verlet(cloths[cloth].flags);
-    const float stiffness = scales_of(verlet, cloth, seconds(push.substeps)).stiffness;
-    const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, StabilityScales(stiffness, 0, 0));
+    StabilityScales scales = scales_of(verlet, cloth, seconds(push.substeps));
+    scales.damping = scales.retardation = 0;
+    const Gather g = gather(self, x, vec3(0), vec3(0), k_no_viscosity, scales);
     precise const vec3 gravity = cloths[cloth].gravity_scale * step_input.gravity;
     return Conservative(g.energy, g.force, g.bending + mass * gravity);
 }

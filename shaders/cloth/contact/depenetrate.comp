@@ -49,22 +49,23 @@ layout(push_constant, std430) uniform Push { DepenetrationPush push; };
 #include "contact/convex.glsl"
 #include "colliders/near_colliders.glsl"
 #include "contact/solid_query.glsl"
+#include "contact/exit_votes.glsl"
 
 // m/s, towards the exit. With its own velocity (contact.comp) a vertex moves at 1.5 m/s at most.
 const float k_exit_speed = 0.9;
 // The weight of the field across the cloth's normal far from the surface: cloth pulled out along itself only stretches.
 const float k_across = 0.05;
 // The preference for one side of a cloth, as a fraction. In the middle of a solid the field along the normal vanishes,
-// and neighbors must agree: they prefer the side to which most of the cloth's vertices went in the last step.
+// and neighbors must agree: they prefer the side to which most of the vertices in it went in the last step.
 const float k_bias = 0.3;
 const float k_first_bias = 0.02; // before there was a vote
-// Votes are integers because their sum must not depend on the order.
-const int k_vote = 1024;
 // Weight of the mean direction of the cloth, relative to the vertex's own direction near the surface.
 const float k_mean_weight = 1.0;
 // Weight of the vertex's own direction, times spacing over depth. Neighbors whose directions differ part for as long as
 // they are inside, so a sheet deep inside moves as one.
 const float k_own_weight = 0.6;
+// Over the thickness: solids nearer than this touch.
+const float k_touching = 0.1;
 const uint k_none = 0xffffffffu;
 const float k_nowhere = 3e38; // m: there is no such exit
 // The most overlapping solids that are searched for an exit.
@@ -223,35 +224,28 @@ Field field_at(Solid solid, Vertex vertex, vec3 local)
     return all_exits;
 }
 
-vec3 direction_out(uint cloth, Field field, vec3 normal)
+vec3 direction_out(uint cloth, uint c, Votes votes, Field field, vec3 normal)
 {
     const float along = dot(field.sum, normal);
     const vec3 across = field.sum - along * normal;
-    const int vote = int(last_votes[VOILE_VOTE_WORDS * cloth]);
-    const float bias = vote == 0 ? k_first_bias : k_bias * sign(vote);
+    const float bias = votes.side == 0 ? k_first_bias : k_bias * sign(votes.side);
     const float side = along + bias * field.size;
-    atomicAdd(next_votes[VOILE_VOTE_WORDS * cloth], uint(int(k_vote * side / field.size)));
+    vote_for_side(cloth, c, side / field.size);
     const vec3 sum = side * normal + k_across * across;
     const float size = length(sum);
     return size > 0 ? sum / size : vec3(0, 1, 0);
 }
 
-// The direction of the vertex, drawn towards the mean direction of the cloth's vertices in the last step. Parts of a
-// sheet that leave on different sides would tear it. `own`: weight of the vertex's own direction.
-vec3 agreed_direction(uint cloth, uint c, uint flags, vec3 direction, float own)
+// The direction of the vertex, drawn towards the mean direction of the last step. Parts of a sheet that leave on different
+// sides would tear it. `own`: weight of the vertex's own direction.
+vec3 agreed_direction(uint cloth, uint c, uint flags, Votes votes, vec3 direction, float own)
 {
-    const uint word = VOILE_VOTE_WORDS * cloth;
-    const vec3 sum = vec3(int(last_votes[word + 1]), int(last_votes[word + 2]), int(last_votes[word + 3]));
-    const float count = max(float(last_votes[word + VOILE_VOTE_COUNT]), 1);
-    const vec3 mean = rotated_into(c, flags, sum / (k_vote * count)); // of unit vectors: shorter if they differ
+    const float count = max(float(votes.count), 1);
+    const vec3 mean = rotated_into(c, flags, votes.direction / (k_vote * count)); // of unit vectors: shorter if they differ
     const vec3 sum_of_both = own * direction + k_mean_weight * mean;
     const float size = length(sum_of_both);
     const vec3 chosen = size > 1e-3 ? sum_of_both / size : direction;
-    const ivec3 vote = ivec3(k_vote * rotated_out_of(c, flags, chosen));
-    atomicAdd(next_votes[word + 1], uint(vote.x));
-    atomicAdd(next_votes[word + 2], uint(vote.y));
-    atomicAdd(next_votes[word + 3], uint(vote.z));
-    atomicAdd(next_votes[word + VOILE_VOTE_COUNT], 1);
+    vote_for_direction(cloth, c, rotated_out_of(c, flags, chosen));
     return chosen;
 }
 
@@ -366,17 +360,18 @@ Depenetration depenetration_of(Vertex vertex, uint c, vec3 normal)
     const bool nearest = entered && field.free.distance < k_nowhere;
     const bool alone = nearest || (field.width < spacing(vertex.cloth) && size > 0);
     const float own = clamp(k_own_weight * spacing(vertex.cloth) * field.size, 0, 1);
+    const Votes votes = votes_for(vertex.cloth, c, k_touching * vertex.thickness);
     const vec3 direction =
         nearest ? field.free.direction
         : alone ? field.sum / size
-                : agreed_direction(vertex.cloth, c, flags,
-                                   direction_out(vertex.cloth, field, rotated_into(c, flags, normal)), own);
+                : agreed_direction(vertex.cloth, c, flags, votes,
+                                   direction_out(vertex.cloth, c, votes, field, rotated_into(c, flags, normal)), own);
     const float most = k_exit_speed * push.step;
     const vec3 world = rotated_out_of(c, flags, direction);
     const float distance = exit_of_all(vertex, solid, local, direction, world, 2 * most);
     const float step_distance = distance < most ? distance : distance < 2 * most ? 0.5 * distance : most;
     // Without a vote neighbors may differ, so the first step only votes.
-    const bool agreed = alone || last_votes[VOILE_VOTE_WORDS * vertex.cloth + VOILE_VOTE_COUNT] > 0;
+    const bool agreed = alone || votes.count > 0;
     return Depenetration(agreed ? step_distance / push.step * world : vec3(0), c + 1);
 }
 
@@ -393,7 +388,7 @@ Depenetration find_depenetration(uint i, uint cloth)
         if (!is_solid(solid.collider) || (solid.collider.layers & vertex.layers) == 0 ||
             !is_inside(solid, into_collider(c, solid.collider.flags, x, 0)))
             continue;
-        atomicOr(next_votes[VOILE_VOTE_WORDS * cloth + VOILE_VOTE_COLLIDERS], 1u << (c % 32));
+        note_inside(cloth, c);
         first = min(first, c);
     }
     return first == k_none ? Depenetration(vec3(0), 0) : depenetration_of(vertex, first, normals[i].xyz);

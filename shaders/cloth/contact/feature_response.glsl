@@ -64,14 +64,21 @@ vec2 find_friction()
 
 void find_exits()
 {
-    const uint word = VOILE_VOTE_WORDS * self.vertex.cloth;
+    const uint own = collider_index % VOILE_BALLOTS;
+    const uint first = VOILE_VOTE_WORDS * self.vertex.cloth;
     exits_along = vec3(0);
     pinched = false;
-    if ((votes[word + VOILE_VOTE_COLLIDERS] & (1u << (collider_index % 32))) == 0)
+    if (votes[first + VOILE_BALLOT_WORDS * own + VOILE_BALLOT_COLLIDER] == 0)
         return;
-    const vec3 sum = vec3(int(votes[word + 1]), int(votes[word + 2]), int(votes[word + 3]));
+    vec3 sum = vec3(0);
+    pinched = true;
+    for (uint bits = votes[first + VOILE_BALLOT_WORDS * own + VOILE_BALLOT_TOGETHER] | 1u << own; bits != 0; bits &= bits - 1)
+    {
+        const uint word = first + VOILE_BALLOT_WORDS * findLSB(bits);
+        sum += vec3(int(votes[word + 1]), int(votes[word + 2]), int(votes[word + 3]));
+        pinched = pinched && votes[word + VOILE_BALLOT_COUNT] == 0;
+    }
     exits_along = collider_moves ? rotate_back(pose_to.rotation, sum) : sum;
-    pinched = votes[word + VOILE_VOTE_COUNT] == 0;
 }
 
 // After select_collider.

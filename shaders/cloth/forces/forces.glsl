@@ -115,12 +115,15 @@ void add_bending(inout Gather g, Neighbor other, float weight)
     g.bending_rate += weight * other.velocity;
 }
 
-SpringClass scaled(SpringClass spring, float stiffness, float damping)
+// `weight`: of the spring, in its family.
+SpringClass scaled(SpringClass spring, float weight, StabilityScales scales)
 {
-    spring.stiffness *= stiffness;
-    spring.damping *= damping;
+    spring.stiffness *= weight * scales.stiffness;
+    spring.damping = weight * scales.damping * spring.damping + scales.retardation * spring.stiffness;
     return spring;
 }
+
+bool has_springs(SpringClass spring) { return spring.stiffness + spring.damping > 0; }
 
 // The force of bending, N, from what neighbors have added to it and to its rate.
 void end_bending(inout Gather g, uint cloth, StabilityScales scales)

@@ -19,8 +19,6 @@ vec3 add_neighbor(inout Gather g, PatchVertex self, ivec2 offset, bool exists, S
     return other.delta;
 }
 
-bool has_springs(SpringClass spring) { return spring.stiffness + spring.damping > 0; }
-
 // Both neighbors two lines away, ahead and behind, which may have springs, bending alone, or nothing.
 void add_far_neighbors(inout Gather g, PatchVertex self, ivec2 offset, bvec2 exist, SpringClass spring, float bending)
 {
@@ -73,7 +71,7 @@ vec2 border_scales(uint cloth, PatchVertex self)
 SpringClass grid_springs(uint cloth, int c, vec2 border, StabilityScales scales)
 {
     const float scale = c % 4 == 0 ? border.x : c % 4 == 1 ? border.y : 1;
-    return scaled(cloths[cloth].springs[c], scale * scales.stiffness, scale * scales.damping);
+    return scaled(cloths[cloth].springs[c], scale, scales);
 }
 
 // m, to the neighbors along the lines.

@@ -27,16 +27,15 @@ void add_mesh_part(inout Gather g, uint cloth, uint local, uint part, StabilityS
         next = mesh_springs[vertex.first_spring + min(s + FORCE_PARTS, vertex.springs - 1) * MESH_STRIDE];
         const uint other = first_vertex + (entry.neighbor & ~VOILE_OPPOSITE_BIT);
         const bool opposite = (entry.neighbor & VOILE_OPPOSITE_BIT) != 0;
-        const SpringClass spring = cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE];
         const float weight = uniform_springs && entry.weight > 0 ? 1 : entry.weight;
-        const float stiffness = scales.stiffness * weight * spring.stiffness;
-        const float damping = scales.damping * weight * spring.damping;
-        const bool pulls = stiffness + damping > 0;
+        const SpringClass spring =
+            scaled(cloths[cloth].springs[opposite ? VOILE_CLASS_OPPOSITE : VOILE_CLASS_EDGE], weight, scales);
+        const bool pulls = has_springs(spring);
         if (!pulls && entry.bending == 0)
             continue;
         const Neighbor neighbor = Neighbor(delta_to(g, other), stage_velocities[other].xyz - g.v);
         if (pulls)
-            add_spring(g, stiffness, damping, entry.rest_length, neighbor.delta, neighbor.velocity);
+            add_spring(g, spring.stiffness, spring.damping, entry.rest_length, neighbor.delta, neighbor.velocity);
         add_bending(g, neighbor, -entry.bending);
     }
     g.bending *= cloths[cloth].bending.x;
@@ -46,7 +45,7 @@ void add_mesh_part(inout Gather g, uint cloth, uint local, uint part, StabilityS
         return;
     SpringClass membrane[VOILE_MEMBRANE_SPRINGS];
     for (int k = 0; k < VOILE_MEMBRANE_SPRINGS; ++k)
-        membrane[k] = scaled(cloths[cloth].springs[VOILE_CLASS_WARP + k], scales.stiffness, scales.damping);
+        membrane[k] = scaled(cloths[cloth].springs[VOILE_CLASS_WARP + k], 1, scales);
     MeshCorner next_corner;
     if (vertex.corners > part)
         next_corner = mesh_corners[vertex.first_corner + part * MESH_STRIDE];

@@ -18,8 +18,9 @@ const Viscosity k_no_viscosity = Viscosity(false, 0, 0);
 // needs none: viscosity vanishes with the fourth power of the substep, faster than the method's own error.
 Viscosity viscosity_of(StabilityScales scales, float flat_omega_squared, float decay, float h)
 {
-    const float flat_load = verlet_load(scales.stiffness * flat_omega_squared, scales.damping * decay, h);
-    const float strength = scales.stiffness * flat_omega_squared * h * h;
+    const float softened = scales.stiffness * flat_omega_squared;
+    const float flat_load = verlet_load(softened, scales.damping * decay + scales.retardation * softened, h);
+    const float strength = softened * h * h;
     const float most = min(0.15, 0.8 * max(1 - flat_load, 0) / max(strength, 1e-30)); // of load^1.5 h
     return Viscosity(true, scales.load * sqrt(scales.load) * h * most, 1 / max(most, 1e-6));
 }

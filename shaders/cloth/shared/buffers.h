@@ -101,7 +101,7 @@ VOILE_SCRATCH_BUFFER(33, candidate_centers, vec4, vertices, "the query center an
 VOILE_SCRATCH_BUFFER(34, candidate_triangles, uint, vertices * VOILE_CANDIDATE_WORDS, "the list of triangles near a vertex: its length, two radii, the triangles")
 VOILE_SCRATCH_BUFFER(35, depenetrations, Depenetration, 2 + vertices, "workgroups of this step's and the next step's indirect dispatch, the next one cleared before it is written; then per vertex the collider that contains it, and its exit velocity")
 VOILE_SCRATCH_BUFFER(85, contact_planes, ContactPlane, vertices, "the surface that a vertex touched in the last contact pass, if such passes span several substeps")
-VOILE_BUFFER(36, depenetration_votes_even, uint, cloths * VOILE_VOTE_WORDS, "votes of even steps, per cloth: the side of its normals on which it leaves colliders, the sum of all exit directions, the colliders (VOILE_VOTE_*)")
+VOILE_BUFFER(36, depenetration_votes_even, uint, cloths * VOILE_VOTE_WORDS, "votes of even steps, per cloth: ballots of colliders, the side of its normals on which it leaves them and the sum of exit directions (VOILE_BALLOT_*)")
 VOILE_BUFFER(37, depenetration_votes_odd, uint, cloths * VOILE_VOTE_WORDS, "votes of odd steps")
 VOILE_BUFFER(38, feature_sets, FeatureSet, colliders, "the feature edges and vertices of a collider")
 VOILE_BUFFER(39, feature_nodes, BvhNode, feature_nodes, "hierarchies of features")

@@ -30,13 +30,16 @@
 #define VOILE_CANDIDATE_COUNT_BITS 5
 #define VOILE_CANDIDATE_COUNT_MASK 31u
 
-// The votes of a cloth's vertices that are inside of colliders. Word 0: the sum of the votes for sides. Words 1-3: the
-// sum of the exit directions in the world. Word 4: the number of directions. Word 5: one bit per collider, for collider
-// c bit c % 32. Word 6: 1 if vertices are inside that may have begun there.
-#define VOILE_VOTE_WORDS 7
-#define VOILE_VOTE_COUNT 4     // the word of the number of directions
-#define VOILE_VOTE_COLLIDERS 5 // the word of the bits
-#define VOILE_VOTE_BEGAN 6
+// The votes of a cloth's vertices that are inside of colliders: ballots, that of collider c at c % VOILE_BALLOTS, and after
+// them one word: 1 if vertices are inside that may have begun there. Of a ballot, word 0: the sum of the votes for sides.
+// Words 1-3: the sum of the exit directions in the world.
+#define VOILE_BALLOTS 32
+#define VOILE_BALLOT_WORDS 7
+#define VOILE_BALLOT_COUNT 4    // the word of the number of directions
+#define VOILE_BALLOT_COLLIDER 5 // the largest index, plus 1, of colliders that vertices are inside of; 0: none
+#define VOILE_BALLOT_TOGETHER 6 // bits of the other ballots that are counted with it
+#define VOILE_VOTE_BEGAN (VOILE_BALLOTS * VOILE_BALLOT_WORDS)
+#define VOILE_VOTE_WORDS (VOILE_VOTE_BEGAN + 1)
 
 VOILE_SHARED_BEGIN(voile)
 

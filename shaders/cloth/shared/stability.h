@@ -10,6 +10,9 @@
 #define VOILE_RK4_RADIUS 2.6
 // The fraction of the stability region that springs and their damping may use. Air and viscosity use the rest.
 #define VOILE_STABILITY_MARGIN 0.95
+// The part of what Verlet's springs and their damping may use that the damping of softened springs takes. Without it the
+// strain limit, which moves vertices by a fraction of a millimeter in each step, makes them vibrate for ever.
+#define VOILE_SOFTENED_DAMPING 0.5
 
 VOILE_SHARED_BEGIN(voile)
 
@@ -33,16 +36,29 @@ struct StabilityScales
     real stiffness; // 0..1
     real damping;   // 0..1
     real load;      // 0..1, under Verlet: the load of the scaled stiffness and damping
+    // s, of softened springs: their damping over their stiffness (Kelvin and Voigt), besides their own damping
+    real retardation;
 };
 
+// What exceeds the stability region is taken from the stiffness. Up to VOILE_SOFTENED_DAMPING as much again goes to damping.
 VOILE_INLINE StabilityScales verlet_scales(real omega_squared, real decay, real h)
 {
-    const real load = verlet_load(omega_squared, decay, h) / (VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN);
-    const real scale = min(1.0, 1.0 / max(load, 1e-30));
+    const real region = VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN;
+    const real elastic = verlet_load(omega_squared, 0, h);
+    const real viscous = verlet_load(0, decay, h);
+    const real excess = max(elastic + viscous - region, 0.0);
     StabilityScales scales;
-    scales.stiffness = scale;
-    scales.damping = scale;
-    scales.load = verlet_load(scale * omega_squared, scale * decay, h);
+    scales.stiffness = scales.damping = 1;
+    scales.retardation = 0;
+    if (excess > 0)
+    {
+        const real most = region * max(VOILE_SOFTENED_DAMPING, viscous / (elastic + viscous));
+        const real damped = min(viscous + excess, most);
+        scales.damping = min(1.0, damped / max(viscous, 1e-30));
+        scales.stiffness = min(1.0, (region - damped) / max(elastic, 1e-30));
+        scales.retardation = 0.5 * h * max(damped - scales.damping * viscous, 0.0) / max(scales.stiffness * elastic, 1e-30);
+    }
+    scales.load = scales.stiffness * elastic + scales.damping * viscous;
     return scales;
 }
 
@@ -53,6 +69,7 @@ VOILE_INLINE StabilityScales rk4_scales(real omega_squared, real decay, real h)
     scales.stiffness = min(1.0, radius * radius / max(omega_squared, 1e-30));
     scales.damping = min(1.0, radius / max(decay, 1e-30));
     scales.load = 0;
+    scales.retardation = 0;
     return scales;
 }
 

@@ -279,6 +279,7 @@ Stability Solver::stability(ClothId cloth, const Step& step) const
     result.stiffness_scale = static_cast<float>(scales.stiffness);
     result.damping_scale = static_cast<float>(scales.damping);
     result.load = static_cast<float>(scales.load);
+    result.retardation = static_cast<float>(scales.retardation);
     return result;
 }
 
