@@ -62,10 +62,11 @@ double change_per_frame(ClothHarness& harness, voile::ClothId cloth, uint32_t su
 
 } // namespace
 
-// Measured: 0.04 at most. Without the damping of softened springs 0.08 to 0.26 in 16 substeps, for ever.
+// Measured: 0.05 at most. Without the damping of softened springs 0.08 to 0.26 in 16 substeps, for ever.
 TEST_CASE("every preset hangs from two corners in 8 and 16 substeps without shaking, as a grid and as a mesh")
 {
-    for (const voile::Fabric& fabric : {voile::silk(), voile::cotton(), voile::wool(), voile::denim(), voile::leather()})
+    for (const voile::Fabric& fabric :
+         {voile::silk(), voile::cotton(), voile::wool(), voile::denim(), voile::leather()})
         for (const bool grid : {true, false})
             for (const uint32_t substeps : {8u, 16u})
             {
@@ -75,7 +76,7 @@ TEST_CASE("every preset hangs from two corners in 8 and 16 substeps without shak
                 ClothHarness harness;
                 const voile::ClothId cloth = grid ? add_grid(harness, fabric) : add_mesh(harness, fabric);
                 harness.upload();
-                CHECK(change_per_frame(harness, cloth, substeps) < 0.07);
+                CHECK(change_per_frame(harness, cloth, substeps) < 0.1);
             }
 }
 
@@ -86,7 +87,7 @@ TEST_CASE("fabric without damping of its own does not shake on a budget, either"
     ClothHarness harness;
     const voile::ClothId cloth = add_grid(harness, fabric);
     harness.upload();
-    CHECK(change_per_frame(harness, cloth, 16) < 0.07);
+    CHECK(change_per_frame(harness, cloth, 16) < 0.1);
 }
 
 TEST_CASE("cloth with all of its substeps, and cloth under RK4, gets no damping")

@@ -41,6 +41,7 @@ TEST_CASE("softened silk and softened undamped cloth gain no energy when they ar
     shot.fabric = voile::silk();
     (void)shoot(edge_of_a_box(false), shot);
     shot.strain_limit = 0.1f;
+    shot.speed = 46; // at 40 m/s edges are in the box for some frames (docs/contact.md)
     (void)shoot(edge_of_a_box(false), shot);
     shot = {
         .vertices = 48, .size = 1.5f, .speed = 60, .thickness = k_thick, .frames = 6, .stiffness = 1, .substeps = 20};

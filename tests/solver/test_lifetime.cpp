@@ -3,6 +3,7 @@
 #include "support/collider_scenes.hpp"
 #include "support/test_paths.hpp"
 
+#include "shared/contact_layout.h"
 #include "solver/lifetime_check.hpp"
 #include "voile/engine/assets/shapes.hpp"
 
@@ -112,7 +113,7 @@ TEST_CASE("an upload and a snapshot may outlive their solver")
         harness.run([&](VkCommandBuffer cmd) { voile::engine::take(harness.solver.record_save(cmd, *snapshot)); });
     }
     CHECK(snapshot->bytes().size() ==
-          36 * (3 * sizeof(glm::vec4) + sizeof(glm::uvec2)) + (7 + 16 + 6 + 1) * sizeof(uint32_t));
+          36 * (3 * sizeof(glm::vec4) + sizeof(glm::uvec2)) + (VOILE_VOTE_WORDS + 16 + 6 + 1) * sizeof(uint32_t));
     float first = 0;
     std::memcpy(&first, snapshot->bytes().data(), sizeof(first));
     CHECK(first == -0.25f);

@@ -30,9 +30,9 @@
 #define VOILE_CANDIDATE_COUNT_BITS 5
 #define VOILE_CANDIDATE_COUNT_MASK 31u
 
-// The votes of a cloth's vertices that are inside of colliders: ballots, that of collider c at c % VOILE_BALLOTS, and after
-// them one word: 1 if vertices are inside that may have begun there. Of a ballot, word 0: the sum of the votes for sides.
-// Words 1-3: the sum of the exit directions in the world.
+// The votes of a cloth's vertices that are inside of colliders: ballots, that of collider c at c % VOILE_BALLOTS, and
+// after them one word: 1 if vertices are inside that may have begun there. Of a ballot, word 0: the sum of the votes
+// for sides. Words 1-3: the sum of the exit directions in the world.
 #define VOILE_BALLOTS 32
 #define VOILE_BALLOT_WORDS 7
 #define VOILE_BALLOT_COUNT 4    // the word of the number of directions

@@ -10,9 +10,9 @@
 #define VOILE_RK4_RADIUS 2.6
 // The fraction of the stability region that springs and their damping may use. Air and viscosity use the rest.
 #define VOILE_STABILITY_MARGIN 0.95
-// The part of what Verlet's springs and their damping may use that the damping of softened springs takes. Without it the
-// strain limit, which moves vertices by a fraction of a millimeter in each step, makes them vibrate for ever.
-#define VOILE_SOFTENED_DAMPING 0.5
+// The part of what Verlet's springs and their damping may use that the damping of softened springs takes. Without it
+// the strain limit, which moves vertices by a fraction of a millimeter in each step, makes them vibrate for ever.
+#define VOILE_SOFTENED_DAMPING 0.3
 
 VOILE_SHARED_BEGIN(voile)
 
@@ -40,7 +40,8 @@ struct StabilityScales
     real retardation;
 };
 
-// What exceeds the stability region is taken from the stiffness. Up to VOILE_SOFTENED_DAMPING as much again goes to damping.
+// What exceeds the stability region is taken from the stiffness. Up to VOILE_SOFTENED_DAMPING as much again goes to
+// damping.
 VOILE_INLINE StabilityScales verlet_scales(real omega_squared, real decay, real h)
 {
     const real region = VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN;
@@ -56,7 +57,8 @@ VOILE_INLINE StabilityScales verlet_scales(real omega_squared, real decay, real 
         const real damped = min(viscous + excess, most);
         scales.damping = min(1.0, damped / max(viscous, 1e-30));
         scales.stiffness = min(1.0, (region - damped) / max(elastic, 1e-30));
-        scales.retardation = 0.5 * h * max(damped - scales.damping * viscous, 0.0) / max(scales.stiffness * elastic, 1e-30);
+        scales.retardation =
+            0.5 * h * max(damped - scales.damping * viscous, 0.0) / max(scales.stiffness * elastic, 1e-30);
     }
     scales.load = scales.stiffness * elastic + scales.damping * viscous;
     return scales;
