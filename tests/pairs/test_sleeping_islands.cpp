@@ -125,7 +125,7 @@ TEST_CASE("a cloth that flies at one that sleeps meets it as if it had never sle
             float most = 0;
             for (size_t i = 0; i < ends[0].size(); ++i)
                 most = std::max(most, glm::distance(glm::vec3(ends[0][i]), glm::vec3(ends[1][i])));
-            CHECK(most < (speed < 10 ? 1e-3f : 3e-2f)); // m; 2.3e-4 and 1.0e-2 on lavapipe
+            CHECK(most < (speed < 10 ? 3e-3f : 3e-2f)); // m; 2.3e-4 and 1.0e-2 on lavapipe, 1.1e-3 on an H200
             CHECK(ends[0][27].y < -0.005f);
         }
 }
