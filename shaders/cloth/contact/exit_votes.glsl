@@ -2,7 +2,7 @@
 // together, as parts of one body: their ballots are counted as one. Others are left on their own. One vote for all of
 // them drew a vertex through a sphere to the side on which the cloth left a capsule beside it.
 //
-// The including kernel declares last_votes[], next_votes[], and what swept_box.glsl needs.
+// The including kernel declares last_votes[], next_votes[], push.colliders, and what swept_box.glsl needs.
 #ifndef VOILE_EXIT_VOTES_GLSL
 #define VOILE_EXIT_VOTES_GLSL
 
@@ -51,7 +51,8 @@ Votes votes_for(uint cloth, uint c, float margin)
     {
         const uint word = ballot_word(cloth, ballot);
         const uint other = last_votes[word + VOILE_BALLOT_COLLIDER];
-        if (other == 0 || !(ballot == c % VOILE_BALLOTS || overlap(own, solid_box(other - 1, margin))))
+        const bool exists = other > 0 && other <= push.colliders; // it may have been removed since
+        if (!exists || !(ballot == c % VOILE_BALLOTS || overlap(own, solid_box(other - 1, margin))))
             continue;
         together |= 1u << ballot;
         sum.side += int(last_votes[word]);
