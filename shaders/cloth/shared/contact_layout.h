@@ -37,7 +37,7 @@
 #define VOILE_BALLOT_WORDS 7
 #define VOILE_BALLOT_COUNT 4    // the word of the number of directions
 #define VOILE_BALLOT_COLLIDER 5 // the largest index, plus 1, of colliders that vertices are inside of; 0: none
-#define VOILE_BALLOT_TOGETHER 6 // bits of the other ballots that are counted with it
+#define VOILE_BALLOT_TOGETHER 6 // bits of the ballots that are counted as one with it
 #define VOILE_VOTE_BEGAN (VOILE_BALLOTS * VOILE_BALLOT_WORDS)
 #define VOILE_VOTE_WORDS (VOILE_VOTE_BEGAN + 1)
 

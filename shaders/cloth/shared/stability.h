@@ -10,7 +10,7 @@
 #define VOILE_RK4_RADIUS 2.6
 // The fraction of the stability region that springs and their damping may use. Air and viscosity use the rest.
 #define VOILE_STABILITY_MARGIN 0.95
-// The part of what Verlet's springs and their damping may use that the damping of softened springs takes. Without it
+// The part of what Verlet's springs and their damping may use that softened springs have for damping. Without it
 // the strain limit, which moves vertices by a fraction of a millimeter in each step, makes them vibrate for ever.
 #define VOILE_SOFTENED_DAMPING 0.3
 
@@ -40,8 +40,8 @@ struct StabilityScales
     real retardation;
 };
 
-// What exceeds the stability region is taken from the stiffness. Up to VOILE_SOFTENED_DAMPING as much again goes to
-// damping.
+// What exceeds the stability region is taken from the stiffness, and as much again for damping, until that takes
+// VOILE_SOFTENED_DAMPING of the region.
 VOILE_INLINE StabilityScales verlet_scales(real omega_squared, real decay, real h)
 {
     const real region = VOILE_STABILITY_MARGIN * VOILE_STABILITY_MARGIN;
