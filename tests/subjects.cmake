@@ -144,7 +144,7 @@ voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_removal
 voile_add_test(test_depenetration SOURCES contact/test_solids.cpp contact/test_inside.cpp contact/test_pinch.cpp contact/test_depenetration.cpp contact/test_separate_solids.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_command_reuse SOURCES solver/test_command_reuse.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_output SOURCES solver/test_output.cpp solver/test_previous_positions.cpp solver/test_vertex_streams.cpp LIBRARIES voile::cloth voile::engine)
-voile_add_test(test_softened_limit SOURCES constraints/test_softened_limit.cpp constraints/test_softened_meshes.cpp constraints/test_step_lengths.cpp constraints/test_shaking.cpp LIBRARIES voile::cloth_internal voile::engine voile_scene_meshes)
+voile_add_test(test_softened_limit SOURCES constraints/test_softened_limit.cpp constraints/test_softened_meshes.cpp constraints/test_step_lengths.cpp constraints/test_shaking.cpp constraints/test_budget_motion.cpp LIBRARIES voile::cloth_internal voile::engine voile_scene_meshes)
 
 # The benchmark's files of results, and its options for them.
 if(TARGET cloth_bench)

@@ -129,7 +129,7 @@ TEST_CASE("softened silk and cotton come to rest on a sphere that is smaller tha
         (void)voile::engine::take(
             harness.solver.add_collider(voile::SphereCollider{.center = {0, 0.3f, 0}, .radius = 0.3f}));
         harness.upload();
-        harness.step({.max_substeps = 16}, 180);
+        harness.step({.max_substeps = 16}, 300);
         glm::dvec3 center(0);
         for (const glm::vec4& p : harness.positions(id))
             center += glm::dvec3(p) / (25. * 25);
@@ -137,7 +137,7 @@ TEST_CASE("softened silk and cotton come to rest on a sphere that is smaller tha
         for (const glm::vec4& v : harness.velocities(id))
             energy += 0.5 * glm::dot(glm::dvec3(v), glm::dvec3(v)) / (25. * 25); // J/kg
         CHECK(glm::length(glm::dvec2(center.x, center.z)) < 0.003);              // measured: 0.0006
-        CHECK(energy < 1e-5);                                                    // measured: 2.5e-6
+        CHECK(energy < 3e-6);                                                    // measured: 1e-6
     }
 }
 

@@ -61,16 +61,6 @@ float shortest_length(uint self, uint other, float rest_length)
     return min(rest_length, distance(step_positions[self].xyz, step_positions[other].xyz));
 }
 
-// Of a relative velocity, per neighbor and pass.
-const float k_smoothing = 0.1;
-
-// The last passes on a softened grid take part of the velocity of neighbors relative to each other. Corrections leave
-// waves of a few vertices in the velocities, which soft dashpots hardly damp: cloth would shake.
-bool smooths(uint cloth)
-{
-    return push.spacing == 1 && is_softened(cloth) && push.pass + 2 >= VOILE_SOFTENED_STRAIN_PASSES;
-}
-
 #include "constraints/limit_triangles.glsl"
 
 // All neighbors are loaded before the first is used. The vertex itself stands for one that is missing.
@@ -104,9 +94,6 @@ Correction limit_grid(PatchVertex self)
     for (int k = 0; k < 8; ++k)
         add_limit(correction, end, others[k], (1 + level_limit(k, cloth)) * lengths[k],
                   shortest[k]);
-    if (end.inverse_mass > 0 && smooths(cloth))
-        for (int k = 0; k < 8; ++k)
-            correction.v += k_smoothing * fraction_of(end, others[k]) * (others[k].v - end.v);
     return correction;
 }
 
@@ -154,8 +141,6 @@ Correction limit_listed(PatchVertex self)
         const End other = end_at(other_index, positions[other_index].w > 0 ? link.inverse_mass : 0);
         add_limit(correction, end, other, (1 + mix(limit, shear_limit, link.shear)) * link.rest_length,
                   level == 0 ? shortest_length(self.index, other_index, link.rest_length) : 0);
-        if (smooths(cloth) && end.inverse_mass > 0)
-            correction.v += k_smoothing * fraction_of(end, other) * (other.v - end.v);
     }
     return correction;
 }

@@ -3,7 +3,7 @@
 // long as that allows.
 //
 // The including kernel declares cloths[], positions[], step_positions[], mesh_vertices[], mesh_corners[],
-// membrane_corners[], end_at, smooths and k_smoothing.
+// membrane_corners[] and end_at.
 #ifndef VOILE_LIMIT_TRIANGLES_GLSL
 #define VOILE_LIMIT_TRIANGLES_GLSL
 
@@ -92,11 +92,6 @@ Correction limit_triangles(PatchVertex self)
         add_limit_along(correction, t, vec2(0, 1), limit);
         add_limit_along(correction, t, vec2(k_half, k_half), shear_limit);
         add_limit_along(correction, t, vec2(k_half, -k_half), shear_limit);
-        for (uint other = 1; other < 3 && smooths(self.cloth); ++other) // most edges belong to two triangles
-        {
-            const End to = t.end[(t.own + other) % 3];
-            correction.v += 0.5 * k_smoothing * fraction_of(end, to) * (to.v - end.v);
-        }
     }
     return correction;
 }

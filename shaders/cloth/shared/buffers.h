@@ -75,7 +75,7 @@ VOILE_SCRATCH_BUFFER(14, stage_a_velocities, vec4, vertices, "RK4 stage 1, passe
 VOILE_SCRATCH_BUFFER(15, stage_b_positions, vec4, vertices, "RK4 stages 2 and 4, Verlet: the positions that a substep proposes")
 VOILE_SCRATCH_BUFFER(16, stage_b_residuals, uvec2, vertices, "residuals of stage B")
 VOILE_SCRATCH_BUFFER(17, stage_b_velocities, vec4, vertices, "RK4 stages 2 and 4, Verlet: the velocities that a substep proposes")
-VOILE_SCRATCH_BUFFER(18, stage_c_positions, vec4, vertices, "RK4 stage 3; velocities before the guard of the strain limit")
+VOILE_SCRATCH_BUFFER(18, stage_c_positions, vec4, vertices, "RK4 stage 3; angular velocities of neighborhoods after the strain limit, velocities before its guard")
 VOILE_SCRATCH_BUFFER(19, stage_c_residuals, uvec2, vertices, "residuals of stage C")
 VOILE_SCRATCH_BUFFER(20, stage_c_velocities, vec4, vertices, "RK4 stage 3; velocities that Verlet predicts for stage B")
 
@@ -210,6 +210,7 @@ VOILE_ROLE(157, after_positions, vec4, "the positions after the change that is m
 VOILE_ROLE(158, after_residuals, uvec2, "the residuals after the change that is measured")
 VOILE_ROLE(159, after_velocities, vec4, "the velocities after the change that is measured")
 VOILE_ROLE(160, works, LimitWork, "the measured energy and work")
+VOILE_ROLE(164, spins, vec4, "the angular velocity of each vertex's neighborhood, and the part of relative velocities that it may take")
 
 // Refit: the hierarchies of cloths, or one of a collider that deforms.
 VOILE_ROLE(161, refit_leaves, PaddedLeaf, "the triangles of the hierarchies that are refitted")

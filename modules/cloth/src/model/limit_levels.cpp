@@ -29,7 +29,7 @@ float inverse(double mass)
 }
 
 // The levels in the layout that is uploaded, vertex by vertex.
-LimitLevels packed(std::span<const CoarserGraph> coarser, bool has_membrane)
+LimitLevels packed(std::span<const CoarserGraph> coarser)
 {
     const size_t count = coarser[0].level.vertices.size();
     std::vector<shared::LimitVertex> vertices(count);
@@ -48,10 +48,9 @@ LimitLevels packed(std::span<const CoarserGraph> coarser, bool has_membrane)
     for (size_t l = 0; l < coarser.size(); ++l)
     {
         const LimitGraph& level = coarser[l].level;
-        const bool listed = l > 0 || !has_membrane;
         for (uint32_t i = 0; i < level.vertices.size(); ++i)
         {
-            const std::span<const LimitGraphLink> own = listed ? level.links_of(i) : std::span<const LimitGraphLink>();
+            const std::span<const LimitGraphLink> own = level.links_of(i);
             levels[vertices[level.vertices[i]].first_level + l] = {
                 static_cast<uint32_t>(links.size()), static_cast<uint32_t>(own.size()), inverse(level.masses[i]), 0};
             for (const LimitGraphLink& link : own)
@@ -127,7 +126,7 @@ LimitLevels make_limit_levels(const ClothModel& cloth)
             break;
         all.push_back(std::move(next));
     }
-    return packed(all, cloth.mesh && !cloth.mesh->membrane.empty());
+    return packed(all);
 }
 
 } // namespace voile

@@ -37,9 +37,11 @@ struct DescriptorSets
     VkDescriptorSet pins{};
     std::array<VkDescriptorSet, 2> proposed_attachments{}; // of stage B, of the state
     std::array<VkDescriptorSet, 2> proposed_tethers{};
-    VkDescriptorSet limit_coarse{};              // state to stage B
-    VkDescriptorSet strain_back{};               // stage B to stage A
-    VkDescriptorSet strain_forth{};              // stage A to stage B
+    std::array<VkDescriptorSet, 2> limit_coarse{}; // state to stage B, to stage A
+    VkDescriptorSet strain_back{};                 // stage B to stage A
+    VkDescriptorSet strain_forth{};                // stage A to stage B
+    VkDescriptorSet limit_spin{};                  // of stage A, in stage C's positions
+    VkDescriptorSet limit_smooth{};                // stage A to stage B
     std::array<VkDescriptorSet, 4> limit_work{}; // each with the forces at one end of the step or of the limit
     VkDescriptorSet limit_scale{};
     VkDescriptorSet limit_guard{};

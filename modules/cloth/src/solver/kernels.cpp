@@ -76,6 +76,8 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options,
     add(kernels.tethers, "cloth tethers", shaders::k_tether_comp, plain);
     add(kernels.limit_coarse, "cloth wide strain limit", shaders::k_limit_coarse_comp, plain);
     add(kernels.limit_strain, "cloth strain limit", shaders::k_limit_strain_comp, with_lists);
+    add(kernels.limit_spin, "cloth limit spin", shaders::k_limit_spin_comp, plain);
+    add(kernels.limit_smooth, "cloth limit smooth", shaders::k_limit_smooth_comp, plain);
     add(kernels.limit_work, "cloth limit work", shaders::k_limit_work_comp,
         {.workgroup_size = group, .interleaved = interleaved, .force_parts = parts});
     add(kernels.limit_scale, "cloth limit scale", shaders::k_limit_scale_comp, plain);

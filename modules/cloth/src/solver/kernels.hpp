@@ -21,6 +21,8 @@ struct Kernels
     gpu::Kernel tethers;
     gpu::Kernel limit_coarse;
     gpu::Kernel limit_strain;
+    gpu::Kernel limit_spin;
+    gpu::Kernel limit_smooth;
     gpu::Kernel limit_work;
     gpu::Kernel limit_scale;
     gpu::Kernel limit_guard;

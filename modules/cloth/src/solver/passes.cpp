@@ -120,6 +120,7 @@ Passes Solver::State::passes_with(const StrainLimitOf& limit_of) const
         {
             next.strain_spacing = std::max(next.strain_spacing, cloth.record.strain_spacing);
             next.strain_passes = std::max(next.strain_passes, limit.passes);
+            next.smooths |= limit.passes == VOILE_SOFTENED_STRAIN_PASSES;
         }
         next.sleep |= cloth.record.sleep_speed > 0;
         if (!cloth.self_collision)

@@ -158,27 +158,30 @@ void Describer::add_attachments()
 
 void Describer::add_strain_limit()
 {
-    add(sets_.limit_coarse, kernels_.limit_coarse,
-        {{binding::stage_positions, k_state.positions},
-         {binding::stage_residuals, k_state.residuals},
-         {binding::stage_velocities, k_state.velocities},
-         {binding::next_positions, k_stage_b.positions},
-         {binding::next_residuals, k_stage_b.residuals},
-         {binding::next_velocities, k_stage_b.velocities}});
-    const auto add_set = [&](VkDescriptorSet& set, const StateBuffers& input, const StateBuffers& output)
+    using Roles = std::vector<RoleBuffer>;
+    const auto add_pass = [&](VkDescriptorSet& set, const gpu::Kernel& kernel,
+                              std::pair<const StateBuffers&, const StateBuffers&> states, const Roles& others = {})
     {
-        add(set, kernels_.limit_strain,
-            {{binding::stage_positions, input.positions},
-             {binding::stage_residuals, input.residuals},
-             {binding::stage_velocities, input.velocities},
-             {binding::next_positions, output.positions},
-             {binding::next_residuals, output.residuals},
-             {binding::next_velocities, output.velocities},
-             {binding::step_positions, k_state.positions},
-             {binding::step_velocities, k_state.velocities}});
+        const auto& [input, output] = states;
+        Roles roles{{binding::stage_positions, input.positions},   {binding::stage_residuals, input.residuals},
+                    {binding::stage_velocities, input.velocities}, {binding::next_positions, output.positions},
+                    {binding::next_residuals, output.residuals},   {binding::next_velocities, output.velocities}};
+        roles.insert(roles.end(), others.begin(), others.end());
+        add(set, kernel, std::move(roles));
     };
-    add_set(sets_.strain_back, k_stage_b, k_stage_a);
-    add_set(sets_.strain_forth, k_stage_a, k_stage_b);
+    const RoleBuffer step_positions{binding::step_positions, k_state.positions};
+    const RoleBuffer step_velocities{binding::step_velocities, k_state.velocities};
+    const RoleBuffer spins{binding::spins, buffer::stage_c_positions};
+    add_pass(sets_.limit_coarse[0], kernels_.limit_coarse, {k_state, k_stage_b});
+    add_pass(sets_.limit_coarse[1], kernels_.limit_coarse, {k_state, k_stage_a});
+    add_pass(sets_.strain_back, kernels_.limit_strain, {k_stage_b, k_stage_a}, {step_positions, step_velocities});
+    add_pass(sets_.strain_forth, kernels_.limit_strain, {k_stage_a, k_stage_b}, {step_positions, step_velocities});
+    add(sets_.limit_spin, kernels_.limit_spin,
+        {{binding::stage_positions, k_stage_a.positions},
+         {binding::stage_velocities, k_stage_a.velocities},
+         step_velocities,
+         spins});
+    add_pass(sets_.limit_smooth, kernels_.limit_smooth, {k_stage_a, k_stage_b}, {step_velocities, spins});
 }
 
 void Describer::add_limit_work(VkDescriptorSet& set, buffer::Name works, const StateBuffers& here,

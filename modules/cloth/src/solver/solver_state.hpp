@@ -53,6 +53,7 @@ struct Passes
     bool features = false;       // colliders with features
     uint32_t strain_spacing = 0; // the widest level of limit_strain.comp; 0: no cloth has a strain limit
     uint32_t strain_passes = 0;  // on each level
+    bool smooths = false;        // a cloth has the strain limit of softened cloth
     bool contact = false;        // the contact pass of each substep
     bool depenetration = false;  // colliders with an inside
     uint32_t colliders = 0;      // slots up to the last active collider's

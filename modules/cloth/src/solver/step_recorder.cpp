@@ -113,26 +113,25 @@ void StepRecorder::record_limit_guard()
     }
 }
 
-// From coarse to fine. Each level begins with a pass between the lines of the level before. The first and the last pass
-// end in stage B, from where the contact pass takes it: an odd number in between gets one more, on a level of no cloth.
+// From coarse to fine, between stages B and A. Each level begins with a pass between the lines of the level before. The
+// last pass ends in stage B, from where the contact pass takes it.
 void StepRecorder::record_limit_passes()
 {
-    recorder_.dispatch(kernels_.limit_coarse, device_.sets.limit_coarse, threads_, group_,
-                       std::span<const std::byte>{});
     const uint32_t widest = context_.passes.strain_spacing;
     const uint32_t on_level = context_.passes.strain_passes;
-    const uint32_t on_levels = static_cast<uint32_t>(std::bit_width(widest)) * (on_level + 1);
-    uint32_t left = on_levels + on_levels % 2;
+    uint32_t left = static_cast<uint32_t>(std::bit_width(widest)) * (on_level + 1);
+    left += context_.passes.smooths ? 1 : 0; // from stage A to stage B, as the last
+    recorder_.dispatch(kernels_.limit_coarse, device_.sets.limit_coarse[left % 2], threads_, group_,
+                       std::span<const std::byte>{});
+    const uint32_t end = context_.passes.smooths ? 1 : 0;
     const auto record_pass = [&](const shared::StrainPush& push)
     {
         const VkDescriptorSet set = left % 2 == 0 ? device_.sets.strain_back : device_.sets.strain_forth;
         --left;
         shared::StrainPush numbered = push;
-        numbered.last = left == 0 ? 1 : 0;
+        numbered.last = left == end ? 1 : 0;
         recorder_.dispatch(kernels_.limit_strain, set, threads_, group_, numbered);
     };
-    if (on_levels % 2 == 1)
-        record_pass({2 * widest, 1, 1, 0, 0});
     for (uint32_t spacing = widest; spacing > 0; spacing /= 2)
     {
         record_pass({spacing, 1, 1, 0, 0});
@@ -143,6 +142,11 @@ void StepRecorder::record_limit_passes()
             record_pass({spacing, 0, acceleration, i, 0});
         }
     }
+    if (!context_.passes.smooths)
+        return;
+    recorder_.dispatch(kernels_.limit_spin, device_.sets.limit_spin, threads_, group_, std::span<const std::byte>{});
+    recorder_.dispatch(kernels_.limit_smooth, device_.sets.limit_smooth, threads_, group_,
+                       std::span<const std::byte>{});
 }
 
 } // namespace voile
