@@ -18,6 +18,7 @@ layout(VOILE_BINDING(next_positions)) writeonly buffer NextPositions { vec4 next
 layout(VOILE_BINDING(next_velocities)) writeonly buffer NextVelocities { vec4 next_velocities[]; };
 layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
 
+#define VOILE_SHARES_LEVELS
 #include "shared/patch.glsl"
 #include "shared/fine_position.glsl"
 #include "constraints/limit_levels.glsl"
@@ -111,18 +112,20 @@ Correction correction_of(Grid g, ivec2 at, uint now, ivec2 spacing_and_pass)
     const bool is_first = spacing_and_pass.y == 0;
     const vec2 rest = vec2(cloths[g.cloth].springs[0].rest_length, cloths[g.cloth].springs[1].rest_length);
     const LevelNeighbors n = level_neighbors(at, g.lines, spacing, cloths[g.cloth].border_scale);
-    const End end = end_at(g, at, now, inverse_mass_at(n, ivec2(0)), is_first);
-    Correction correction = k_no_correction;
+    End others[8]; // all are loaded before the first is used
+    float longest[8];
     for (int s = 0; s < 8; ++s)
     {
         const ivec2 offset = level_offset(s);
-        const ivec2 to = neighbor_at(n, at, offset);
-        if (cloths[g.cloth].springs[level_class(s)].stiffness == 0 || to == at)
-            continue;
-        const End other = end_at(g, to, now, inverse_mass_at(n, offset), is_first);
-        add_limit(correction, end, other,
-                  (1 + level_limit(s, g.cloth)) * length(vec2(to - at) * rest), 0);
+        const bool has_spring = cloths[g.cloth].springs[level_class(s)].stiffness > 0;
+        const ivec2 to = has_spring ? neighbor_at(n, at, offset) : at; // the vertex itself stands for one that is missing
+        others[s] = end_at(g, to, now, inverse_mass_at(n, offset), is_first);
+        longest[s] = (1 + level_limit(s, g.cloth)) * length(vec2(to - at) * rest);
     }
+    const End end = end_at(g, at, now, inverse_mass_at(n, ivec2(0)), is_first);
+    Correction correction = k_no_correction;
+    for (int s = 0; s < 8; ++s)
+        add_limit(correction, end, others[s], longest[s], 0);
     return correction;
 }
 
@@ -206,9 +209,10 @@ void limit(Grid g)
 void main()
 {
     const uint patch_index = gl_WorkGroupID.x;
-    const PatchVertex self = patch_vertex(patch_index);
+    PatchVertex self = patch_vertex(patch_index);
     if (self.asleep)
         return;
+    self.exists = self.exists && gl_LocalInvocationID.x < PATCH_SIZE;
     const bool limited =
         cloths[self.cloth].strain_limit > 0 && cloths[self.cloth].first_limit == VOILE_NO_LIMIT_LEVELS;
     const Grid g = grid_of(self);

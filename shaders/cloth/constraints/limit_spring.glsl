@@ -50,19 +50,13 @@ void add_limit(inout Correction correction, End self, End other, float longest, 
     const vec3 delta = other.x - self.x;
     const float distance = length(delta);
     const bool is_short = distance < shortest;
-    if (self.inverse_mass == 0 || distance == 0 || (!is_short && distance < k_taut * longest))
-        return;
-    const vec3 n = delta / distance;
-    const float fraction = fraction_of(self, other);
+    const bool acts = self.inverse_mass > 0 && distance != 0 && (is_short || !(distance < k_taut * longest));
+    const vec3 n = acts ? delta / distance : vec3(0); // without branches, all springs of a vertex are in flight at once
+    const float fraction = acts ? fraction_of(self, other) : 0;
     const float weight = min(self.relaxation, other.relaxation) * fraction;
     add_stiffness(correction.taken, fraction, n, 1);
-    if (is_short)
-    {
-        correction.x -= weight * (shortest - distance) * n;
-        return;
-    }
-    correction.x += weight * max(distance - longest, 0) * n;
-    correction.v += weight * max(dot(other.v - self.v, n), 0) * n;
+    correction.x += weight * (is_short ? distance - shortest : max(distance - longest, 0)) * n;
+    correction.v += weight * (is_short ? 0 : max(dot(other.v - self.v, n), 0)) * n;
 }
 
 // The relaxation for which the passes converge, at most `relaxation`. Jacobi passes converge while the largest

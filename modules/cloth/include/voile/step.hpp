@@ -28,8 +28,8 @@ struct Step
     // it needs, because of max_substeps or max_vertex_substeps, would sag like rubber. It gets this limit then, unless
     // its material has one. It acts once per step, with fewer passes than a material's (material.hpp). It takes
     // part of the velocity of neighbors relative to each other, less that of a rotation, and adds no energy. With few
-    // substeps it slows cloth that spins freely or swings (docs/performance.md). Diagonals, which lengthen as cloth shears, may lengthen by 0.2. Cloth that takes
-    // all of its substeps moves as without the limit, bit for bit.
+    // substeps it slows cloth that spins freely or swings (docs/performance.md). Diagonals, which lengthen as cloth
+    // shears, may lengthen by 0.2. Cloth that takes all of its substeps moves as without the limit, bit for bit.
     // - 1 m of cotton of 64 x 64 and 128 x 128 vertices needs 175 and 353 substeps per 1/60 s under Verlet. In 16
     //   substeps, 99 % of its structural springs stay below a stretch of 0.08, both when it hangs from two corners and
     //   when it falls over a mesh of 1 m. For 64 x 64 vertices that hang from two corners, 8 substeps suffice.

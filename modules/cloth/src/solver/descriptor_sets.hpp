@@ -42,7 +42,7 @@ struct DescriptorSets
     VkDescriptorSet strain_forth{};                // stage A to stage B
     VkDescriptorSet limit_spin{};                  // of stage A, in stage C's positions
     VkDescriptorSet limit_smooth{};                // stage A to stage B
-    std::array<VkDescriptorSet, 4> limit_work{}; // each with the forces at one end of the step or of the limit
+    std::array<VkDescriptorSet, 4> limit_work{};   // each with the forces at one end of the step or of the limit
     VkDescriptorSet limit_scale{};
     VkDescriptorSet limit_guard{};
     VkDescriptorSet edit{};

@@ -58,7 +58,7 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options,
     };
     const Specialization plain{.workgroup_size = group};
     const Specialization with_lists{.workgroup_size = group, .interleaved = interleaved};
-    const uint32_t parts = options.tuning.sharing_vertices > 0 ? VOILE_FORCE_PARTS : 1;
+    const uint32_t parts = threads_per_vertex(options);
     const auto add_integrators = [&](gpu::Kernel& stage, gpu::Kernel& verlet, uint32_t threads)
     {
         const Specialization with{.workgroup_size = group * threads,
@@ -74,7 +74,8 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options,
     add(kernels.pins, "cloth pins", shaders::k_pin_comp, plain);
     add(kernels.attachments, "cloth attachments", shaders::k_attachments_comp, plain);
     add(kernels.tethers, "cloth tethers", shaders::k_tether_comp, plain);
-    add(kernels.limit_coarse, "cloth wide strain limit", shaders::k_limit_coarse_comp, plain);
+    add(kernels.limit_coarse, "cloth wide strain limit", shaders::k_limit_coarse_comp,
+        {.workgroup_size = group * parts, .force_threads = parts});
     add(kernels.limit_strain, "cloth strain limit", shaders::k_limit_strain_comp, with_lists);
     add(kernels.limit_spin, "cloth limit spin", shaders::k_limit_spin_comp, plain);
     add(kernels.limit_smooth, "cloth limit smooth", shaders::k_limit_smooth_comp, plain);
@@ -183,6 +184,11 @@ uint32_t most_storage_buffers()
         if (const auto shader = gpu::reflect(request.description))
             most = std::max(most, std::ranges::count(shader.value().bindings, false, &gpu::ShaderBinding::uniform));
     return static_cast<uint32_t>(most);
+}
+
+uint32_t threads_per_vertex(const SolverOptions& options)
+{
+    return options.tuning.sharing_vertices > 0 ? VOILE_FORCE_PARTS : 1;
 }
 
 Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options)

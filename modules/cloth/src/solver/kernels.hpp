@@ -78,6 +78,9 @@ struct Kernels
 // That any kernel binds.
 uint32_t most_storage_buffers();
 
+// In kernels whose threads share the work of a patch: those for few vertices, and the wide levels of the strain limit.
+uint32_t threads_per_vertex(const SolverOptions& options);
+
 // Whether a device with these limits can run the kernels. Errors: see gpu::check_limits. Those of the refit take what
 // they find (create_refit_kernels).
 Result<void> check_limits(const VkPhysicalDeviceLimits& limits, const SolverOptions& options);

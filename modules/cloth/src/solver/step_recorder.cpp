@@ -100,12 +100,12 @@ void StepRecorder::keep_state(const StateBuffers& kept, bool velocities)
 
 void StepRecorder::record_limit_guard()
 {
-    for (const VkDescriptorSet set : device_.sets.limit_work)
-        for_each_batch([&](BatchRecorder& batch) { batch.record_limit_work(set); });
+    const std::span works(device_.sets.limit_work);
+    for_each_batch([&](BatchRecorder& batch) { batch.record_limit_works(works); });
     for (uint32_t measurement = 0; measurement <= VOILE_LIMIT_MEASUREMENTS; ++measurement)
     {
         if (measurement > 0) // of what remains of the limit's changes
-            for_each_batch([&](BatchRecorder& batch) { batch.record_limit_work(device_.sets.limit_work[3]); });
+            for_each_batch([&](BatchRecorder& batch) { batch.record_limit_works(works.last(1)); });
         recorder_.dispatch(kernels_.limit_scale, device_.sets.limit_scale, threads_, group_,
                            shared::LimitScalePush{context_.lists.patch_count(), measurement});
         recorder_.dispatch(kernels_.limit_guard, device_.sets.limit_guard, threads_, group_,
@@ -121,7 +121,8 @@ void StepRecorder::record_limit_passes()
     const uint32_t on_level = context_.passes.strain_passes;
     uint32_t left = static_cast<uint32_t>(std::bit_width(widest)) * (on_level + 1);
     left += context_.passes.smooths ? 1 : 0; // from stage A to stage B, as the last
-    recorder_.dispatch(kernels_.limit_coarse, device_.sets.limit_coarse[left % 2], threads_, group_,
+    const uint32_t parts = threads_per_vertex(solver_.options);
+    recorder_.dispatch(kernels_.limit_coarse, device_.sets.limit_coarse[left % 2], threads_ * parts, group_ * parts,
                        std::span<const std::byte>{});
     const uint32_t end = context_.passes.smooths ? 1 : 0;
     const auto record_pass = [&](const shared::StrainPush& push)

@@ -320,11 +320,13 @@ void BatchRecorder::record_bounds()
     record_contact(substeps_);
 }
 
-void BatchRecorder::record_limit_work(VkDescriptorSet set)
+void BatchRecorder::record_limit_works(std::span<const VkDescriptorSet> sets)
 {
     shared::StagePush push{};
     push.substeps = of_level_0(1);
-    dispatch(kernels_.limit_work, set, push);
+    for (const VkDescriptorSet& set : sets) // each writes a buffer of its own
+        dispatch(kernels_.limit_work, set, push,
+                 &set == &sets.back() ? gpu::Ordering::ordered : gpu::Ordering::unordered);
 }
 
 } // namespace voile

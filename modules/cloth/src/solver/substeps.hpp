@@ -43,7 +43,7 @@ public:
     void finish();
     // Attachments, tethers and contact after the strain limit, over no time.
     void record_bounds();
-    void record_limit_work(VkDescriptorSet set);
+    void record_limit_works(std::span<const VkDescriptorSet> sets);
 
 private:
     // In substeps of level 0, as push constants have it.
@@ -88,10 +88,11 @@ private:
     [[nodiscard]] bool ends_alone() const { return contact_period_ > 1 && substeps_ % 2 == 1; }
     // Over all patches of the batch.
     template <typename Push>
-    void dispatch(const gpu::Kernel& kernel, VkDescriptorSet set, Push push)
+    void dispatch(const gpu::Kernel& kernel, VkDescriptorSet set, Push push,
+                  gpu::Ordering ordering = gpu::Ordering::ordered)
     {
         push.first_patch = lists_.patches.first;
-        recorder_.dispatch(kernel, set, lists_.patches.count * group_, group_, push);
+        recorder_.dispatch(kernel, set, lists_.patches.count * group_, group_, push, ordering);
     }
     // Over those whose cloths are awake.
     template <typename Push>
