@@ -97,6 +97,38 @@ TEST_CASE("levels of a strain limit have ever fewer vertices, links that both en
     }
 }
 
+TEST_CASE("the vertices on wide levels of a strain limit are listed, the widest level first")
+{
+    for (const uint32_t side : {3u, 12u, 45u})
+    {
+        CAPTURE(side);
+        voile::Model model;
+        const LimitLevels levels = voile::make_limit_levels(added(model, tests::sheet(side, side, 0.05f)));
+        std::vector<size_t> on_level(levels.count);
+        for (const voile::shared::LimitVertex& vertex : levels.vertices)
+            for (uint32_t l = 0; l <= vertex.top; ++l)
+                ++on_level[l];
+        REQUIRE(levels.narrow > 0);
+        REQUIRE(levels.narrow <= levels.count);
+        for (uint32_t l = 1; l < levels.count; ++l)
+            CHECK((on_level[l] <= VOILE_LIMIT_COARSE_VERTICES) == (l >= levels.narrow));
+        const size_t wide = levels.narrow < levels.count ? on_level[levels.narrow] : 0;
+        REQUIRE(levels.wide.size() == std::min<size_t>(side * side, VOILE_LIMIT_COARSE_VERTICES));
+        for (uint32_t k = 0; k < wide; ++k)
+        {
+            const voile::shared::LimitVertex& vertex = levels.vertices[levels.wide[k].other];
+            CHECK(vertex.other == k);
+            CHECK(vertex.top == levels.wide[k].top);
+            CHECK(vertex.first_level == levels.wide[k].first_level);
+            CHECK(vertex.first_parent == levels.wide[k].first_parent);
+            CHECK((k == 0 || vertex.top <= levels.wide[k - 1].top));
+            CHECK(vertex.top >= levels.narrow);
+        }
+        for (size_t k = wide; k < levels.wide.size(); ++k)
+            CHECK(levels.wide[k].top == 0);
+    }
+}
+
 TEST_CASE("a level of a strain limit has the mass of the cloth")
 {
     voile::Model model;
@@ -217,7 +249,8 @@ TEST_CASE("instances with the same pins and masses share the levels of their str
         REQUIRE(model.add(instance));
     }
     model.list_limit_levels();
-    CHECK(model.limit_levels.end(voile::k_limit_vertices) == 2 * mesh.positions.size());
+    CHECK(model.limit_levels.end(voile::k_limit_vertices) ==
+          2 * 2 * mesh.positions.size()); // and as many entries for wide levels
     voile::MeshCloth heavy;
     heavy.cooked = cooked.value();
     heavy.pins = std::vector<uint32_t>{0};
@@ -227,7 +260,7 @@ TEST_CASE("instances with the same pins and masses share the levels of their str
     const auto id = model.add(heavy);
     REQUIRE(id);
     model.list_limit_levels();
-    CHECK(model.limit_levels.end(voile::k_limit_vertices) == 3 * mesh.positions.size());
+    CHECK(model.limit_levels.end(voile::k_limit_vertices) == 3 * 2 * mesh.positions.size());
     CHECK(voile::pinned_vertices(*model.cloths.find(id.value())) == std::vector<uint32_t>{0, 5});
 }
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The wide levels of the strain limit on a grid (limit_strain.comp), in one dispatch. They have few vertices, so that
-// the workgroup of a cloth's first patch takes all of their passes in shared memory. The other workgroups copy the
-// vertices that are on no such level.
+// The wide levels of the strain limit (limit_strain.comp), in one dispatch. They have few vertices, so that the workgroup
+// of a cloth's first patch takes all of their passes in shared memory. The other workgroups copy the vertices that are on
+// no such level.
 #include "shared/bindings.h"
 #include "shared/cloth_layout.h"
 #include "shared/strain_layout.h"
@@ -17,6 +17,10 @@ layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 re
 layout(VOILE_BINDING(next_positions)) writeonly buffer NextPositions { vec4 next_positions[]; };
 layout(VOILE_BINDING(next_velocities)) writeonly buffer NextVelocities { vec4 next_velocities[]; };
 layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 next_residuals[]; };
+layout(VOILE_BINDING(limit_vertices)) readonly buffer LimitVertices { LimitVertex limit_vertices[]; };
+layout(VOILE_BINDING(limit_levels)) readonly buffer LimitLevels { LimitLevel limit_levels[]; };
+layout(VOILE_BINDING(limit_links)) readonly buffer LimitLinks { LimitLink limit_links[]; };
+layout(VOILE_BINDING(limit_parents)) readonly buffer LimitParents { LimitParent limit_parents[]; };
 
 #define VOILE_SHARES_LEVELS
 #include "shared/patch.glsl"
@@ -24,199 +28,169 @@ layout(VOILE_BINDING(next_residuals)) writeonly buffer NextResiduals { uvec2 nex
 #include "constraints/limit_levels.glsl"
 #include "constraints/limit_spring.glsl"
 
-// The vertices of the finest of these levels, row by row. Displacements of this pass and of the next one, whose w is the
-// relaxation: sums of positions would lose momentum to rounding. The w of velocities is the inverse mass of the vertex
-// alone.
+// The vertices of the finest of these levels. Displacements of this pass and of the next one, whose w is the relaxation:
+// sums of positions would lose momentum to rounding. The w of velocities is the inverse mass of the vertex alone.
 shared vec4 displacements[2][VOILE_LIMIT_COARSE_VERTICES];
 shared vec4 vs[VOILE_LIMIT_COARSE_VERTICES];
+shared uint indices[VOILE_LIMIT_COARSE_VERTICES]; // in the solver's buffers
 
-struct Grid
+const uint k_no_slot = 0xffffffffu;
+
+// The neighbors whose loads are in flight at once.
+#define VOILE_COARSE_NEIGHBORS 8
+
+// The levels of a cloth: a vertex in the shared arrays is a slot.
+struct Levels
 {
     uint cloth;
-    ivec2 lines;
-    int shift;     // the spacing of the finest of these levels is 1 << shift lines
-    int own_lines; // of that level, along a row
+    bool listed;
+    int finest;
+    int widest;
+    uint slots;
+    ivec2 lines;   // this and the following: of a grid
+    int own_lines; // of the finest level, along a row
 };
 
-// Of the level, along each axis.
-ivec2 line_counts(Grid g, int shift) { return ((g.lines - 2 + (1 << shift)) >> shift) + 1; }
-
-Grid grid_of(PatchVertex self)
+// The state at the start stays in its buffer: with it, the arrays would take more than the 16 KB that every device has.
+End end_at(uint slot, uint now, float inverse_mass, bool is_first)
 {
-    Grid g;
-    g.cloth = self.cloth;
-    g.lines = ivec2(self.columns, self.rows);
-    g.shift = findLSB(cloths[self.cloth].strain_spacing) + 1;
-    g.own_lines = line_counts(g, g.shift).x;
-    return g;
+    const vec4 d = displacements[now][slot];
+    const vec4 v = vs[slot];
+    return End(positions[indices[slot]].xyz + d.xyz, v.xyz, v.w * inverse_mass, is_first ? k_safe_relaxation : d.w);
 }
 
-uint vertex_count(Grid g, int shift)
+#include "constraints/limit_coarse_grid.glsl"
+#include "constraints/limit_coarse_listed.glsl"
+
+Levels levels_of(PatchVertex self)
 {
-    const ivec2 counts = line_counts(g, shift);
-    return uint(counts.x * counts.y);
+    Levels levels;
+    levels.cloth = self.cloth;
+    levels.listed = cloths[self.cloth].first_limit != VOILE_NO_LIMIT_LEVELS;
+    levels.finest = findLSB(cloths[self.cloth].strain_spacing) + 1;
+    levels.lines = ivec2(self.columns, self.rows);
+    if (levels.listed)
+        find_listed(levels);
+    else
+        find_lines(levels);
+    return levels;
 }
 
-// The k-th vertex of a level.
-ivec2 column_row(Grid g, int shift, uint k)
-{
-    const uint columns = uint(line_counts(g, shift).x);
-    return min(ivec2(k % columns, k / columns) << shift, g.lines - 1);
-}
+// The slot of the k-th vertex of a level, or k_no_slot.
+uint slot_at(Levels levels, int level, uint k) { return levels.listed ? listed_slot_at(levels, level, k) : grid_slot_at(levels, level, k); }
 
-// In the shared arrays.
-uint slot(Grid g, ivec2 at)
+void load(Levels levels)
 {
-    const ivec2 line = (at + (1 << g.shift) - 1) >> g.shift;
-    return uint(line.y * g.own_lines + line.x);
-}
-
-uint vertex(Grid g, ivec2 at) { return cloths[g.cloth].first_vertex + uint(at.y * g.lines.x + at.x); }
-
-void load(Grid g)
-{
-    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g, g.shift); k += gl_WorkGroupSize.x)
+    for (uint k = gl_LocalInvocationID.x; k < levels.slots; k += gl_WorkGroupSize.x)
     {
-        const uint i = vertex(g, column_row(g, g.shift, k));
+        const uint slot = slot_at(levels, levels.finest, k);
+        if (slot == k_no_slot)
+            break;
+        const uint i = levels.listed ? listed_index(levels, slot) : grid_index(levels, slot);
         const vec4 v = velocities[i];
-        displacements[0][k] = displacements[1][k] = vec4(vec3(0), cloths[g.cloth].strain_relaxation);
-        vs[k] = vec4(v.xyz, limit_inverse_mass(positions[i].w > 0 ? 1 : 0, v.w));
+        indices[slot] = i;
+        displacements[0][slot] = displacements[1][slot] = vec4(vec3(0), cloths[levels.cloth].strain_relaxation);
+        vs[slot] = vec4(v.xyz, limit_inverse_mass(positions[i].w > 0 ? 1 : 0, v.w));
     }
 }
 
-void store(Grid g, uint now)
+void store(Levels levels, uint now)
 {
-    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g, g.shift); k += gl_WorkGroupSize.x)
+    for (uint k = gl_LocalInvocationID.x; k < levels.slots; k += gl_WorkGroupSize.x)
     {
-        const uint i = vertex(g, column_row(g, g.shift, k));
+        const uint slot = slot_at(levels, levels.finest, k);
+        if (slot == k_no_slot)
+            break;
+        const uint i = indices[slot];
         const FinePosition here = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
-        const FinePosition next = moved(here, displacements[now][k].xyz);
+        const FinePosition next = moved(here, displacements[now][slot].xyz);
         next_positions[i] = vec4(next.x, positions[i].w);
         next_residuals[i] = pack_residual(next);
-        next_velocities[i] = vec4(vs[k].xyz, 0);
+        next_velocities[i] = vec4(vs[slot].xyz, 0);
     }
 }
 
-// The state at the start stays in its buffer: with it, the arrays would take more than the 16 KB that every device has.
-End end_at(Grid g, ivec2 at, uint now, float inverse_mass, bool is_first)
+// Vertices between those of the level before take the mean displacement of their neighbors there.
+void interpolate(Levels levels, uint now, int level)
 {
-    const uint k = slot(g, at);
-    const vec4 d = displacements[now][k];
-    const vec4 v = vs[k];
-    return End(positions[vertex(g, at)].xyz + d.xyz, v.xyz, v.w * inverse_mass, is_first ? k_safe_relaxation : d.w);
-}
-
-Correction correction_of(Grid g, ivec2 at, uint now, ivec2 spacing_and_pass)
-{
-    const int spacing = spacing_and_pass.x;
-    const bool is_first = spacing_and_pass.y == 0;
-    const vec2 rest = vec2(cloths[g.cloth].springs[0].rest_length, cloths[g.cloth].springs[1].rest_length);
-    const LevelNeighbors n = level_neighbors(at, g.lines, spacing, cloths[g.cloth].border_scale);
-    End others[8]; // all are loaded before the first is used
-    float longest[8];
-    for (int s = 0; s < 8; ++s)
+    for (uint k = gl_LocalInvocationID.x; k < levels.slots; k += gl_WorkGroupSize.x)
     {
-        const ivec2 offset = level_offset(s);
-        const bool has_spring = cloths[g.cloth].springs[level_class(s)].stiffness > 0;
-        const ivec2 to = has_spring ? neighbor_at(n, at, offset) : at; // the vertex itself stands for one that is missing
-        others[s] = end_at(g, to, now, inverse_mass_at(n, offset), is_first);
-        longest[s] = (1 + level_limit(s, g.cloth)) * length(vec2(to - at) * rest);
-    }
-    const End end = end_at(g, at, now, inverse_mass_at(n, ivec2(0)), is_first);
-    Correction correction = k_no_correction;
-    for (int s = 0; s < 8; ++s)
-        add_limit(correction, end, others[s], longest[s], 0);
-    return correction;
-}
-
-// Vertices between the lines of the level before take the mean displacement of their neighbors there.
-void interpolate(Grid g, uint now, int shift)
-{
-    for (uint k = gl_LocalInvocationID.x; k < vertex_count(g, shift); k += gl_WorkGroupSize.x)
-    {
-        const ivec2 at = column_row(g, shift, k);
-        const uint self = slot(g, at);
-        if (vs[self].w == 0 || on_level(at, g.lines, 2 << shift))
+        const uint slot = slot_at(levels, level, k);
+        if (slot == k_no_slot)
+            break;
+        const bool is_between = levels.listed ? listed_top(levels, slot) == level : is_between_lines(levels, k, level);
+        if (!is_between || vs[slot].w == 0)
             continue;
-        const Between b = between_lines(at, g.lines, 2 << shift);
-        vec3 displacement = vec3(0);
-        for (int corner = 0; corner < 4; ++corner)
-        {
-            const ivec2 to = corner_at(b, corner);
-            const float weight = corner_weight(b, corner);
-            displacement += weight * displacements[now][slot(g, to)].xyz;
-            vs[self].xyz += weight * (vs[slot(g, to)].xyz - velocities[vertex(g, to)].xyz);
-        }
-        displacements[now][self].xyz = displacement;
+        const Correction mean =
+            levels.listed ? listed_between(levels, slot, now) : grid_between(levels, k, uvec2(now, level));
+        displacements[now][slot].xyz = mean.x;
+        vs[slot].xyz += mean.v;
     }
     barrier();
 }
 
-void pass(Grid g, uint now, int shift, float acceleration, int pass_index)
+void pass(Levels levels, uint now, int level, float acceleration, int pass_index)
 {
     const uint k_owned = (VOILE_LIMIT_COARSE_VERTICES + gl_WorkGroupSize.x - 1) / gl_WorkGroupSize.x;
     vec3 v[k_owned];
+    uint slots[k_owned];
     for (uint owned = 0; owned < k_owned; ++owned)
     {
         const uint k = owned * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-        if (k >= vertex_count(g, shift))
-            break;
-        const ivec2 at = column_row(g, shift, k);
-        const uint self = slot(g, at);
-        v[owned] = vs[self].xyz;
-        if (vs[self].w == 0)
+        const uint slot = k < levels.slots ? slot_at(levels, level, k) : k_no_slot;
+        slots[owned] = slot;
+        if (slot == k_no_slot)
+            continue;
+        v[owned] = vs[slot].xyz;
+        if (vs[slot].w == 0)
             continue; // pinned: it has no displacement
-        const Correction correction = correction_of(g, at, now, ivec2(1 << shift, pass_index));
-        const vec3 d = displacements[now][self].xyz + correction.x;
-        const float relaxation = stable_relaxation(correction.taken, cloths[g.cloth].strain_relaxation);
-        const vec3 last = displacements[1 - now][self].xyz;
-        displacements[1 - now][self] = vec4(acceleration == 1 ? d : mix(last, d, acceleration), relaxation);
+        const uvec3 at = uvec3(now, level, pass_index);
+        const Correction correction =
+            levels.listed ? listed_correction(levels, slot, at) : grid_correction(levels, k, at);
+        const vec3 d = displacements[now][slot].xyz + correction.x;
+        const float relaxation = stable_relaxation(correction.taken, cloths[levels.cloth].strain_relaxation);
+        const vec3 last = displacements[1 - now][slot].xyz;
+        displacements[1 - now][slot] = vec4(acceleration == 1 ? d : mix(last, d, acceleration), relaxation);
         v[owned] += correction.v;
     }
     barrier();
     for (uint owned = 0; owned < k_owned; ++owned)
-    {
-        const uint k = owned * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-        if (k < vertex_count(g, shift))
-            vs[slot(g, column_row(g, shift, k))].xyz = v[owned];
-    }
+        if (slots[owned] != k_no_slot)
+            vs[slots[owned]].xyz = v[owned];
     barrier();
 }
 
-void limit(Grid g)
+void limit(Levels levels)
 {
-    load(g);
+    load(levels);
     barrier();
     uint now = 0;
-    int widest = g.shift;
-    while (1 << widest < max(g.lines.x, g.lines.y) - 1)
-        ++widest;
-    for (int shift = widest; shift >= g.shift; --shift)
+    for (int level = levels.widest; level >= levels.finest; --level)
     {
-        if (shift < widest)
-            interpolate(g, now, shift);
+        if (level < levels.widest)
+            interpolate(levels, now, level);
         float acceleration = 1;
-        for (uint i = 0; i < cloths[g.cloth].strain_passes; ++i)
+        for (uint i = 0; i < cloths[levels.cloth].strain_passes; ++i)
         {
             acceleration = strain_acceleration(i, acceleration);
-            pass(g, now, shift, acceleration, int(i));
+            pass(levels, now, level, acceleration, int(i));
             now = 1 - now;
         }
     }
-    store(g, now);
+    store(levels, now);
 }
 
 void main()
 {
     const uint patch_index = gl_WorkGroupID.x;
-    PatchVertex self = patch_vertex(patch_index);
+    const PatchVertex self = patch_vertex(patch_index);
     if (self.asleep)
         return;
-    self.exists = self.exists && gl_LocalInvocationID.x < PATCH_SIZE;
-    const bool limited =
-        cloths[self.cloth].strain_limit > 0 && cloths[self.cloth].first_limit == VOILE_NO_LIMIT_LEVELS;
-    const Grid g = grid_of(self);
-    if (self.exists && !(limited && on_level(self.column_row, g.lines, 1 << g.shift)))
+    const Levels levels = levels_of(self);
+    const bool limited = cloths[self.cloth].strain_limit > 0 && levels.widest >= levels.finest;
+    const bool is_on = levels.listed ? limit_vertices[cloths[self.cloth].first_limit + self.local].top >= levels.finest
+                                     : on_level(self.column_row, levels.lines, 1 << levels.finest);
+    if (self.exists && gl_LocalInvocationID.x < PATCH_SIZE && !(limited && is_on))
     {
         next_positions[self.index] = positions[self.index];
         next_residuals[self.index] = residuals[self.index];
@@ -224,5 +198,5 @@ void main()
     }
     const bool is_first = patch_index == 0 || patches[patch_index - 1].cloth != self.cloth;
     if (limited && is_first)
-        limit(g);
+        limit(levels);
 }

@@ -6,7 +6,7 @@
 
 VOILE_SHARED_BEGIN(voile)
 
-// The most vertices of a level that limit_coarse.comp takes: 17 x 17. Each has 64 bytes of shared memory.
+// The most vertices of a level that limit_coarse.comp takes: 17 x 17. Each has 52 bytes of shared memory.
 #define VOILE_LIMIT_COARSE_VERTICES 289
 
 // The passes on each level, for a material's limit and for that of softened cloth.
@@ -25,12 +25,16 @@ VOILE_INLINE float strain_acceleration(uint i, float before)
 
 // A vertex of a cloth whose levels are listed (limit_levels.cpp): the first of its entries in LimitLevel[], one for
 // each level from 0 to `top`. On the next level its parents stand for it.
+//
+// After the vertices of a cloth come entries for those on the levels that limit_coarse.comp takes, the widest level
+// first: VOILE_LIMIT_COARSE_VERTICES, or as many as the cloth has vertices. Where fewer are on these levels, `top` is 0.
 struct LimitVertex
 {
     uint first_level;
     uint top;
     uint first_parent;
     uint parents;
+    uint other; // of a vertex on these levels: the number of its entry; of an entry: its vertex, counted within the cloth
 };
 
 // A vertex on a level.
@@ -103,7 +107,7 @@ struct LimitScalePush
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(LimitVertex) == 16);
+static_assert(sizeof(LimitVertex) == 20);
 static_assert(sizeof(LimitLevel) == 16);
 static_assert(sizeof(LimitLink) == 16);
 static_assert(sizeof(LimitParent) == 8);

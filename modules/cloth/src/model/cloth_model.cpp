@@ -274,7 +274,7 @@ void set_pair_distances(const ClothModel& cloth, shared::ClothRecord& record)
 void set_strain_spacing(ClothModel& cloth)
 {
     if (cloth.limit_levels)
-        cloth.record.strain_spacing = 1u << (cloth.limit_levels->count - 1);
+        cloth.record.strain_spacing = 1u << (cloth.limit_levels->narrow - 1);
     else
         cloth.record.strain_spacing = cloth.mesh ? 1 : grid_strain_spacing(cloth.record);
 }

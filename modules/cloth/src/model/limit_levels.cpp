@@ -5,6 +5,7 @@
 #include "model/coarser_graph.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace voile
@@ -26,6 +27,32 @@ float shear_of(const FabricOffset& offset)
 float inverse(double mass)
 {
     return mass > 0 ? static_cast<float>(1 / mass) : 0;
+}
+
+// The number of levels that are too large for limit_coarse.comp. The first always is.
+uint32_t narrow_levels(std::span<const CoarserGraph> coarser)
+{
+    size_t narrow = coarser.size();
+    while (narrow > 1 && coarser[narrow - 1].level.vertices.size() <= VOILE_LIMIT_COARSE_VERTICES)
+        --narrow;
+    return static_cast<uint32_t>(narrow);
+}
+
+// Entries for the vertices on all other levels. A level has those of the next wider one, and more.
+std::vector<shared::LimitVertex> make_wide(std::vector<shared::LimitVertex>& vertices, uint32_t narrow)
+{
+    std::vector<shared::LimitVertex> wide;
+    for (uint32_t i = 0; i < vertices.size(); ++i)
+        if (vertices[i].top >= narrow)
+        {
+            wide.push_back(vertices[i]);
+            wide.back().other = i;
+        }
+    std::ranges::stable_sort(wide, std::ranges::greater(), &shared::LimitVertex::top);
+    for (uint32_t k = 0; k < wide.size(); ++k)
+        vertices[wide[k].other].other = k;
+    wide.resize(std::min<size_t>(vertices.size(), VOILE_LIMIT_COARSE_VERTICES));
+    return wide;
 }
 
 // The levels in the layout that is uploaded, vertex by vertex.
@@ -70,8 +97,15 @@ LimitLevels packed(std::span<const CoarserGraph> coarser)
                 parents.push_back({level.vertices[parent.vertex], parent.weight});
         }
     }
-    return {std::move(vertices), std::move(levels), std::move(links), std::move(parents),
-            static_cast<uint32_t>(coarser.size())};
+    const uint32_t narrow = narrow_levels(coarser);
+    std::vector<shared::LimitVertex> wide = make_wide(vertices, narrow);
+    return {std::move(vertices),
+            std::move(wide),
+            std::move(levels),
+            std::move(links),
+            std::move(parents),
+            static_cast<uint32_t>(coarser.size()),
+            narrow};
 }
 
 } // namespace

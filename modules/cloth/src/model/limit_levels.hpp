@@ -17,10 +17,12 @@ struct ClothModel;
 struct LimitLevels
 {
     SharedArray<shared::LimitVertex> vertices;
+    SharedArray<shared::LimitVertex> wide; // the entries after them
     SharedArray<shared::LimitLevel> levels;
     SharedArray<shared::LimitLink> links;
     SharedArray<shared::LimitParent> parents;
-    uint32_t count = 0; // of levels
+    uint32_t count = 0;  // of levels
+    uint32_t narrow = 0; // of the levels that limit_strain.comp takes; limit_coarse.comp takes the others
 };
 
 // Whether the levels of a cloth are to be listed: those of a grid are its lines, unless it has pins between them.

@@ -74,6 +74,7 @@ void stage_limit_levels(Staging& staging, const SharedRanges<LimitLevels, k_limi
 {
     const LimitLevels& listed = *placement.owner;
     std::vector<shared::LimitVertex> vertices(listed.vertices.begin(), listed.vertices.end());
+    vertices.insert(vertices.end(), listed.wide.begin(), listed.wide.end());
     for (shared::LimitVertex& vertex : vertices)
     {
         vertex.first_level += static_cast<uint32_t>(placement.first[k_limit_levels]);
