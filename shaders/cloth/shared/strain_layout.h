@@ -27,14 +27,16 @@ VOILE_INLINE float strain_acceleration(uint i, float before)
 // each level from 0 to `top`. On the next level its parents stand for it.
 //
 // After the vertices of a cloth come entries for those on the levels that limit_coarse.comp takes, the widest level
-// first: VOILE_LIMIT_COARSE_VERTICES, or as many as the cloth has vertices. Where fewer are on these levels, `top` is 0.
+// first: VOILE_LIMIT_COARSE_VERTICES, or as many as the cloth has vertices. Where fewer are on these levels, `top` is
+// 0.
 struct LimitVertex
 {
     uint first_level;
     uint top;
     uint first_parent;
     uint parents;
-    uint other; // of a vertex on these levels: the number of its entry; of an entry: its vertex, counted within the cloth
+    uint other; // of a vertex on these levels: the number of its entry; of an entry: its vertex, counted within the
+                // cloth
 };
 
 // A vertex on a level.

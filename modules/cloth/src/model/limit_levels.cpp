@@ -125,7 +125,7 @@ std::vector<uint32_t> pinned_vertices(const ClothModel& cloth)
 
 bool needs_limit_levels(const ClothModel& cloth)
 {
-    if (cloth.mesh)
+    if (cloth.mesh || cloth.own_inverse_mass > 0)
         return true;
     const auto columns = static_cast<int>(cloth.record.columns);
     const auto rows = static_cast<int>(cloth.record.rows);

@@ -25,7 +25,8 @@ struct LimitLevels
     uint32_t narrow = 0; // of the levels that limit_strain.comp takes; limit_coarse.comp takes the others
 };
 
-// Whether the levels of a cloth are to be listed: those of a grid are its lines, unless it has pins between them.
+// Whether the levels of a cloth are to be listed: those of a grid are its lines, unless it has pins between them or
+// masses of its own.
 bool needs_limit_levels(const ClothModel& cloth);
 
 // Attached ones and those without an inverse mass, in ascending order.

@@ -154,8 +154,9 @@ void Model::list_limit_levels()
         if (!levels)
             levels = std::make_shared<const LimitLevels>(make_limit_levels(cloth));
         cloth.limit_levels = levels;
-        const auto& placement = limit_levels.acquire(
-            levels, {levels->vertices.size() + levels->wide.size(), levels->levels.size(), levels->links.size(), levels->parents.size()});
+        const auto& placement =
+            limit_levels.acquire(levels, {levels->vertices.size() + levels->wide.size(), levels->levels.size(),
+                                          levels->links.size(), levels->parents.size()});
         cloth.record.first_limit = static_cast<uint32_t>(placement.first[k_limit_vertices]);
         set_strain_spacing(cloth);
     }
