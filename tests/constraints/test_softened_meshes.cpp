@@ -277,7 +277,7 @@ TEST_CASE("a softened mesh that nothing holds keeps its momentum and gains no en
         }
 }
 
-// Cloth lies on a sphere by shearing. Measured 0.0017 and 0.0034 m/s; it ends within 1 mm of the middle.
+// Cloth lies on a sphere by shearing. Measured 0.0015 and 0.005 m/s; it ends within 1.1 mm of the middle.
 TEST_CASE("softened meshes come to rest on a sphere that is smaller than they are")
 {
     for (const bool in_rows : {true, false})
@@ -290,14 +290,14 @@ TEST_CASE("softened meshes come to rest on a sphere that is smaller than they ar
         const voile::ClothId id = take(harness.solver.add_cloth(cloth));
         (void)take(harness.solver.add_collider(voile::SphereCollider{.center = {0, 0.3f, 0}, .radius = 0.3f}));
         harness.upload();
-        harness.step({.max_substeps = 16}, 210);
+        harness.step({.max_substeps = 16}, 330);
         glm::dvec3 center(0);
         const std::vector<glm::vec4> x = harness.positions(id);
         for (const glm::vec4& p : x)
             center += glm::dvec3(p) / static_cast<double>(x.size());
         const double rms = rms_speed(harness.velocities(id));
         MESSAGE("rms speed " << rms << ", center " << glm::length(glm::dvec2(center.x, center.z)));
-        CHECK(rms < 0.012);
+        CHECK(rms < 0.01);
         CHECK(glm::length(glm::dvec2(center.x, center.z)) < 0.004);
     }
 }
