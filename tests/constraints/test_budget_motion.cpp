@@ -83,6 +83,7 @@ void spin(ClothHarness& harness, voile::ClothId cloth, const glm::dvec3& turn)
     for (const glm::vec4& p : x)
         center += glm::dvec3(p) / static_cast<double>(x.size());
     std::vector<glm::vec4> turning;
+    turning.reserve(x.size());
     for (const glm::vec4& p : x)
         turning.emplace_back(glm::vec3(glm::cross(turn, glm::dvec3(p) - center)), 0.f);
     harness.set_velocities(cloth, turning);
