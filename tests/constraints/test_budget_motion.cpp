@@ -76,19 +76,6 @@ voile::ClothId add(ClothHarness& harness, Kind kind, const voile::Fabric& fabric
     return take(harness.solver.add_cloth(cloth));
 }
 
-void spin(ClothHarness& harness, voile::ClothId cloth, const glm::dvec3& turn)
-{
-    const auto x = harness.positions(cloth);
-    glm::dvec3 center(0);
-    for (const glm::vec4& p : x)
-        center += glm::dvec3(p) / static_cast<double>(x.size());
-    std::vector<glm::vec4> turning;
-    turning.reserve(x.size());
-    for (const glm::vec4& p : x)
-        turning.emplace_back(glm::vec3(glm::cross(turn, glm::dvec3(p) - center)), 0.f);
-    harness.set_velocities(cloth, turning);
-}
-
 // m, of the mean of all vertices, from one side to the other after two swings without air. The sheet starts 20 degrees
 // beside where it hangs.
 double third_swing(Kind kind, voile::Step step, bool expects_softening)
@@ -130,7 +117,7 @@ TEST_CASE("free cloth on a budget keeps its spin")
             harness.upload();
             const voile::Step step{.max_substeps = 16, .gravity = glm::vec3(0), .air_density = 0};
             CHECK(harness.solver.stability(cloth, step).stiffness_scale < 0.5f);
-            spin(harness, cloth, {1, 3, 2});
+            tests::spin(harness, cloth, {1, 3, 2});
             const tests::Momenta before = tests::momenta_of(harness, cloth);
             harness.step(step, 90);
             const tests::Momenta after = tests::momenta_of(harness, cloth);
@@ -170,7 +157,7 @@ TEST_CASE("a free grid whose halves differ in mass keeps its momentum under a st
         ClothHarness harness;
         const voile::ClothId cloth = take(harness.solver.add_cloth(grid));
         harness.upload();
-        spin(harness, cloth, {1, 3, 2});
+        tests::spin(harness, cloth, {1, 3, 2});
         const tests::Momenta before = tests::momenta_of(harness, cloth);
         voile::Step step{.gravity = glm::vec3(0), .air_density = 0};
         if (budget)

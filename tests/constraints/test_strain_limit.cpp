@@ -153,10 +153,7 @@ TEST_CASE("a spinning cloth under a strain limit loses angular momentum no faste
     ClothHarness harness;
     const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
     harness.upload();
-    std::vector<glm::vec4> turning;
-    for (const glm::vec4& x : harness.positions(id))
-        turning.emplace_back(glm::vec3(glm::cross(glm::dvec3(0, k_turn, 0), glm::dvec3(x))), 0.f);
-    harness.set_velocities(id, turning);
+    tests::spin(harness, id, {0, k_turn, 0});
     const double start = tests::momenta_of(harness, id).angular.y;
     constexpr uint32_t k_steps = 120;
     harness.step({.gravity = glm::vec3(0), .air_density = 0}, k_steps);

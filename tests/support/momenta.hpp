@@ -36,4 +36,18 @@ inline Momenta momenta_of(ClothHarness& harness, voile::ClothId id)
     return result;
 }
 
+// Sets the velocities of a rotation about the mean of the positions. `turn`: rad/s.
+inline void spin(ClothHarness& harness, voile::ClothId id, const glm::dvec3& turn)
+{
+    const auto x = harness.positions(id);
+    glm::dvec3 center(0);
+    for (const glm::vec4& p : x)
+        center += glm::dvec3(p) / static_cast<double>(x.size());
+    std::vector<glm::vec4> turning;
+    turning.reserve(x.size());
+    for (const glm::vec4& p : x)
+        turning.emplace_back(glm::vec3(glm::cross(turn, glm::dvec3(p) - center)), 0.f);
+    harness.set_velocities(id, turning);
+}
+
 } // namespace tests

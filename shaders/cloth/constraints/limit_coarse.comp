@@ -36,9 +36,6 @@ shared uint indices[VOILE_LIMIT_COARSE_VERTICES]; // in the solver's buffers
 
 const uint k_no_slot = 0xffffffffu;
 
-// The neighbors whose loads are in flight at once.
-#define VOILE_COARSE_NEIGHBORS 8
-
 // The levels of a cloth: a vertex in the shared arrays is a slot.
 struct Levels
 {

@@ -56,9 +56,9 @@ Correction grid_correction(Levels levels, uint k, uvec3 at)
     const vec2 rest =
         vec2(cloths[levels.cloth].springs[0].rest_length, cloths[levels.cloth].springs[1].rest_length);
     const LevelNeighbors n = level_neighbors(self, levels.lines, spacing, cloths[levels.cloth].border_scale);
-    End others[VOILE_COARSE_NEIGHBORS]; // all are loaded before the first is used
-    float longest[VOILE_COARSE_NEIGHBORS];
-    for (int s = 0; s < VOILE_COARSE_NEIGHBORS; ++s)
+    End others[VOILE_LEVEL_NEIGHBORS]; // all are loaded before the first is used
+    float longest[VOILE_LEVEL_NEIGHBORS];
+    for (int s = 0; s < VOILE_LEVEL_NEIGHBORS; ++s)
     {
         const ivec2 offset = level_offset(s);
         const bool has_spring = cloths[levels.cloth].springs[level_class(s)].stiffness > 0;
@@ -68,7 +68,7 @@ Correction grid_correction(Levels levels, uint k, uvec3 at)
     }
     const End end = end_at(grid_slot(levels, self), at.x, inverse_mass_at(n, ivec2(0)), is_first);
     Correction correction = k_no_correction;
-    for (int s = 0; s < VOILE_COARSE_NEIGHBORS; ++s)
+    for (int s = 0; s < VOILE_LEVEL_NEIGHBORS; ++s)
         add_limit(correction, end, others[s], longest[s], 0);
     return correction;
 }

@@ -39,11 +39,11 @@ Correction listed_correction(Levels levels, uint slot, uvec3 at)
     const float limit = cloths[levels.cloth].strain_limit;
     const float shear_limit = diagonal_limit(levels.cloth);
     Correction correction = k_no_correction;
-    for (uint first = 0; first < own.links; first += VOILE_COARSE_NEIGHBORS)
+    for (uint first = 0; first < own.links; first += VOILE_LEVEL_NEIGHBORS)
     {
-        End others[VOILE_COARSE_NEIGHBORS]; // all are loaded before the first is used
-        float longest[VOILE_COARSE_NEIGHBORS];
-        for (uint k = 0; k < VOILE_COARSE_NEIGHBORS; ++k)
+        End others[VOILE_LEVEL_NEIGHBORS]; // all are loaded before the first is used
+        float longest[VOILE_LEVEL_NEIGHBORS];
+        for (uint k = 0; k < VOILE_LEVEL_NEIGHBORS; ++k)
         {
             const bool exists = first + k < own.links;
             const LimitLink link = limit_links[own.first_link + min(first + k, own.links - 1)];
@@ -51,7 +51,7 @@ Correction listed_correction(Levels levels, uint slot, uvec3 at)
             others[k] = end_at(to, at.x, link.inverse_mass, is_first);
             longest[k] = (1 + mix(limit, shear_limit, link.shear)) * link.rest_length;
         }
-        for (uint k = 0; k < VOILE_COARSE_NEIGHBORS; ++k)
+        for (uint k = 0; k < VOILE_LEVEL_NEIGHBORS; ++k)
             add_limit(correction, end, others[k], longest[k], 0);
     }
     return correction;

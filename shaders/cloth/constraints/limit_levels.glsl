@@ -74,6 +74,9 @@ ivec2 neighbor_at(LevelNeighbors n, ivec2 at, ivec2 offset)
 // Of all that moves with the neighbor, relative to a vertex in the grid.
 float inverse_mass_at(LevelNeighbors n, ivec2 offset) { return 1 / (n.column_lines[offset.x + 1] * n.row_lines[offset.y + 1]); }
 
+// Of a vertex of a grid on its level, and the number of neighbors whose loads are in flight at once.
+#define VOILE_LEVEL_NEIGHBORS 8
+
 // Structural and shear springs in both directions: the class and the offset of the k-th of eight.
 uint level_class(int k) { return uint(k % 4); }
 ivec2 level_offset(int k) { return (k < 4 ? 1 : -1) * k_spring_offsets[k % 4]; }

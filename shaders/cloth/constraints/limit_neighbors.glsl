@@ -3,14 +3,11 @@
 //
 // The including kernel declares cloths[], limit_vertices[], limit_levels[], limit_links[], positions[], velocities[]
 // and step_velocities[].
-#ifndef VOILE_LIMIT_NEIGHBORS_GLSL
-#define VOILE_LIMIT_NEIGHBORS_GLSL
+#ifndef VOILE_LEVEL_NEIGHBORS_GLSL
+#define VOILE_LEVEL_NEIGHBORS_GLSL
 
 #include "constraints/limit_levels.glsl"
 #include "constraints/limit_spring.glsl"
-
-// Loaded before the first is used.
-#define VOILE_LIMIT_NEIGHBORS 8
 
 struct Neighborhood
 {
@@ -24,7 +21,7 @@ Neighborhood neighborhood(PatchVertex self)
 {
     const uint first_limit = cloths[self.cloth].first_limit;
     if (first_limit == VOILE_NO_LIMIT_LEVELS)
-        return Neighborhood(self, 0, VOILE_LIMIT_NEIGHBORS, false);
+        return Neighborhood(self, 0, VOILE_LEVEL_NEIGHBORS, false);
     const LimitLevel finest = limit_levels[limit_vertices[first_limit + self.local].first_level];
     return Neighborhood(self, finest.first_link, finest.links, true);
 }
@@ -41,17 +38,17 @@ uint neighbor_index(Neighborhood n, uint k)
     return exists ? neighbor(n.self.index, offset, n.self.columns) : n.self.index;
 }
 
-struct Motion
+struct VertexState
 {
     vec3 x; // m
     vec3 v; // m/s
     float inverse_mass;
 };
 
-Motion motion_of(uint index)
+VertexState state_of(uint index)
 {
     const vec4 x = positions[index];
-    return Motion(x.xyz, velocities[index].xyz, limit_inverse_mass(x.w, step_velocities[index].w));
+    return VertexState(x.xyz, velocities[index].xyz, limit_inverse_mass(x.w, step_velocities[index].w));
 }
 
 // Of two inverse masses; 0 between vertices that cannot move.
@@ -61,7 +58,7 @@ float reduced_mass(float a, float b) { return a + b > 0 ? 1 / (a + b) : 0; }
 const float k_smoothing = 0.2;
 
 // Vertices with more neighbors than a grid take less from each.
-float smoothing_part(uint neighbors) { return min(1, float(VOILE_LIMIT_NEIGHBORS) / float(max(neighbors, 1u))); }
+float smoothing_part(uint neighbors) { return min(1, float(VOILE_LEVEL_NEIGHBORS) / float(max(neighbors, 1u))); }
 
 bool is_smoothed(PatchVertex self)
 {

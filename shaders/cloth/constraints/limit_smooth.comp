@@ -35,20 +35,20 @@ layout(VOILE_BINDING(spins)) readonly buffer Spins { vec4 spins[]; };
 vec3 smoothing(PatchVertex self)
 {
     const Neighborhood n = neighborhood(self);
-    const Motion own = motion_of(self.index);
+    const VertexState own = state_of(self.index);
     const vec4 own_spin = spins[self.index];
     vec3 change = vec3(0);
-    for (uint first = 0; first < n.count; first += VOILE_LIMIT_NEIGHBORS)
+    for (uint first = 0; first < n.count; first += VOILE_LEVEL_NEIGHBORS)
     {
-        Motion others[VOILE_LIMIT_NEIGHBORS];
-        vec4 other_spins[VOILE_LIMIT_NEIGHBORS];
-        for (uint k = 0; k < VOILE_LIMIT_NEIGHBORS; ++k)
+        VertexState others[VOILE_LEVEL_NEIGHBORS];
+        vec4 other_spins[VOILE_LEVEL_NEIGHBORS];
+        for (uint k = 0; k < VOILE_LEVEL_NEIGHBORS; ++k)
         {
             const uint other = neighbor_index(n, first + k);
-            others[k] = motion_of(other);
+            others[k] = state_of(other);
             other_spins[k] = spins[other];
         }
-        for (uint k = 0; k < VOILE_LIMIT_NEIGHBORS; ++k)
+        for (uint k = 0; k < VOILE_LEVEL_NEIGHBORS; ++k)
         {
             const vec3 spin = 0.5 * (own_spin.xyz + other_spins[k].xyz);
             const vec3 dv = others[k].v - own.v - cross(spin, others[k].x - own.x);

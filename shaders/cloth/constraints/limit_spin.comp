@@ -42,15 +42,15 @@ void main()
     if (!is_smoothed(self))
         return;
     const Neighborhood n = neighborhood(self);
-    const Motion own = motion_of(self.index);
+    const VertexState own = state_of(self.index);
     mat3 inertia = mat3(0);
     vec3 moment = vec3(0);
-    for (uint first = 0; first < n.count; first += VOILE_LIMIT_NEIGHBORS)
+    for (uint first = 0; first < n.count; first += VOILE_LEVEL_NEIGHBORS)
     {
-        Motion others[VOILE_LIMIT_NEIGHBORS];
-        for (uint k = 0; k < VOILE_LIMIT_NEIGHBORS; ++k)
-            others[k] = motion_of(neighbor_index(n, first + k));
-        for (uint k = 0; k < VOILE_LIMIT_NEIGHBORS; ++k)
+        VertexState others[VOILE_LEVEL_NEIGHBORS];
+        for (uint k = 0; k < VOILE_LEVEL_NEIGHBORS; ++k)
+            others[k] = state_of(neighbor_index(n, first + k));
+        for (uint k = 0; k < VOILE_LEVEL_NEIGHBORS; ++k)
         {
             const vec3 dx = others[k].x - own.x;
             const float weight = reduced_mass(own.inverse_mass, others[k].inverse_mass);

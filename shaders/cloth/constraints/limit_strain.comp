@@ -75,10 +75,10 @@ Correction limit_grid(PatchVertex self)
         return correction;
     const vec2 rest = vec2(cloths[cloth].springs[0].rest_length, cloths[cloth].springs[1].rest_length);
     const LevelNeighbors n = level_neighbors(at, lines, spacing, cloths[cloth].border_scale);
-    End others[8];
-    float lengths[8];
-    float shortest[8];
-    for (int k = 0; k < 8; ++k)
+    End others[VOILE_LEVEL_NEIGHBORS];
+    float lengths[VOILE_LEVEL_NEIGHBORS];
+    float shortest[VOILE_LEVEL_NEIGHBORS];
+    for (int k = 0; k < VOILE_LEVEL_NEIGHBORS; ++k)
     {
         const ivec2 offset = level_offset(k);
         const bool has_spring = cloths[cloth].springs[level_class(k)].stiffness > 0;
@@ -91,7 +91,7 @@ Correction limit_grid(PatchVertex self)
     }
     const float inverse_mass = spacing == 1 ? positions[self.index].w : inverse_mass_at(n, ivec2(0));
     const End end = end_at(self.index, inverse_mass);
-    for (int k = 0; k < 8; ++k)
+    for (int k = 0; k < VOILE_LEVEL_NEIGHBORS; ++k)
         add_limit(correction, end, others[k], (1 + level_limit(k, cloth)) * lengths[k],
                   shortest[k]);
     return correction;

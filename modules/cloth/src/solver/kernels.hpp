@@ -78,7 +78,7 @@ struct Kernels
 // That any kernel binds.
 uint32_t most_storage_buffers();
 
-// In kernels whose threads share the work of a patch: those for few vertices, and the wide levels of the strain limit.
+// In kernels with more threads than a patch has vertices: forces of few vertices, wide levels of the strain limit.
 uint32_t threads_per_vertex(const SolverOptions& options);
 
 // Whether a device with these limits can run the kernels. Errors: see gpu::check_limits. Those of the refit take what

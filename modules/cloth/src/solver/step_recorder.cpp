@@ -119,12 +119,11 @@ void StepRecorder::record_limit_passes()
 {
     const uint32_t widest = context_.passes.strain_spacing;
     const uint32_t on_level = context_.passes.strain_passes;
-    uint32_t left = static_cast<uint32_t>(std::bit_width(widest)) * (on_level + 1);
-    left += context_.passes.smooths ? 1 : 0; // from stage A to stage B, as the last
+    const uint32_t end = context_.passes.smooths ? 1 : 0; // smoothing, from stage A to stage B
+    uint32_t left = static_cast<uint32_t>(std::bit_width(widest)) * (on_level + 1) + end;
     const uint32_t parts = threads_per_vertex(solver_.options);
     recorder_.dispatch(kernels_.limit_coarse, device_.sets.limit_coarse[left % 2], threads_ * parts, group_ * parts,
                        std::span<const std::byte>{});
-    const uint32_t end = context_.passes.smooths ? 1 : 0;
     const auto record_pass = [&](const shared::StrainPush& push)
     {
         const VkDescriptorSet set = left % 2 == 0 ? device_.sets.strain_back : device_.sets.strain_forth;
