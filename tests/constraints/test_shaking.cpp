@@ -65,19 +65,20 @@ double change_per_frame(ClothHarness& harness, voile::ClothId cloth, uint32_t su
 // Measured: 0.05 at most. Without the damping of softened springs 0.08 to 0.26 in 16 substeps, for ever.
 TEST_CASE("every preset hangs from two corners in 8 and 16 substeps without shaking, as a grid and as a mesh")
 {
-    for (const voile::Fabric& fabric :
-         {voile::silk(), voile::cotton(), voile::wool(), voile::denim(), voile::leather()})
-        for (const bool grid : {true, false})
-            for (const uint32_t substeps : {8u, 16u})
-            {
-                CAPTURE(fabric.areal_density);
-                CAPTURE(grid);
-                CAPTURE(substeps);
-                ClothHarness harness;
-                const voile::ClothId cloth = grid ? add_grid(harness, fabric) : add_mesh(harness, fabric);
-                harness.upload();
-                CHECK(change_per_frame(harness, cloth, substeps) < 0.1);
-            }
+    uint32_t run = 0; // each fabric and each kind of cloth once in 8 substeps, once in 16
+    for (const bool grid : {true, false})
+        for (const voile::Fabric& fabric :
+             {voile::silk(), voile::cotton(), voile::wool(), voile::denim(), voile::leather()})
+        {
+            const uint32_t substeps = run++ % 2 == 0 ? 8 : 16;
+            CAPTURE(fabric.areal_density);
+            CAPTURE(grid);
+            CAPTURE(substeps);
+            ClothHarness harness;
+            const voile::ClothId cloth = grid ? add_grid(harness, fabric) : add_mesh(harness, fabric);
+            harness.upload();
+            CHECK(change_per_frame(harness, cloth, substeps) < 0.1);
+        }
 }
 
 TEST_CASE("fabric without damping of its own does not shake on a budget, either")

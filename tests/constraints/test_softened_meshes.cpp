@@ -116,23 +116,14 @@ std::vector<uint32_t> first_row(uint32_t side)
 // Measured 0.061 and 0.060 in rows, 0.118 and 0.104 shuffled; without the limit 0.3 and more.
 TEST_CASE("meshes of 40 x 40 in 16 substeps keep their size as they hang from two vertices, whatever their order")
 {
-    for (const bool in_rows : {true, false})
-    {
-        const ClothMesh mesh = in_rows ? sheet(40) : shuffled(40);
-        const std::vector<uint32_t> corners{nearest(mesh, {0, 0, 0}), nearest(mesh, {1, 0, 0})};
-        const std::vector<uint32_t> inside{nearest(mesh, {0.2f, 0, 0.15f}), nearest(mesh, {0.7f, 0, 0.3f})};
-        for (const std::vector<uint32_t>& pins : {corners, inside})
-        {
-            CAPTURE(in_rows);
-            CAPTURE(pins[0]);
-            const double worst = worst_stretch(mesh, pins, {.max_substeps = 16});
-            MESSAGE("stretch " << worst);
-            CHECK(worst < 0.16);
-        }
-    }
+    const ClothMesh rows = sheet(40);
+    const double inside =
+        worst_stretch(rows, {nearest(rows, {0.2f, 0, 0.15f}), nearest(rows, {0.7f, 0, 0.3f})}, {.max_substeps = 16});
+    CHECK(inside < 0.12); // measured: 0.065
     const ClothMesh mesh = shuffled(40);
-    CHECK(worst_stretch(mesh, {nearest(mesh, {0, 0, 0}), nearest(mesh, {1, 0, 0})},
-                        {.max_substeps = 16, .softened_strain_limit = 0}) > 0.2);
+    const std::vector<uint32_t> corners{nearest(mesh, {0, 0, 0}), nearest(mesh, {1, 0, 0})};
+    CHECK(worst_stretch(mesh, corners, {.max_substeps = 16}) < 0.16); // measured: 0.134
+    CHECK(worst_stretch(mesh, corners, {.max_substeps = 16, .softened_strain_limit = 0}) > 0.2);
 }
 
 // Measured 0.068 and 0.091; with the lines of the grid as levels 0.165, 0.275.
@@ -161,25 +152,22 @@ TEST_CASE("a grid of 64 x 64 in 16 substeps keeps its size, whichever vertices a
     }
 }
 
-// Measured 0.038 and 0.049, in equal frames 0.037. Without the limit 0.15 to 0.49, for ever.
+// Measured 0.059; in equal frames 0.037. Without the limit 0.15 to 0.49, for ever.
 TEST_CASE("a mesh on a budget does not shake in frames of different length")
 {
-    for (const auto& [a, b] : {std::pair(1.f / 60, 1.f / 30), std::pair(1.f / 30, 1.f / 144)})
+    ClothHarness harness;
+    const ClothMesh mesh = sheet(20);
+    const voile::ClothId id = take(harness.solver.add_cloth(cloth_of(mesh, first_row(20))));
+    harness.upload();
+    double most = 0;
+    for (int frame = 0; frame < 240; ++frame)
     {
-        ClothHarness harness;
-        const ClothMesh mesh = sheet(20);
-        const voile::ClothId id = take(harness.solver.add_cloth(cloth_of(mesh, first_row(20))));
-        harness.upload();
-        double most = 0;
-        for (int frame = 0; frame < 360; ++frame)
-        {
-            harness.step({.duration = frame % 2 == 0 ? a : b, .max_substeps = 16});
-            if (frame >= 300)
-                most = std::max(most, rms_speed(harness.velocities(id)));
-        }
-        MESSAGE("rms speed " << most);
-        CHECK(most < 0.1);
+        harness.step({.duration = frame % 2 == 0 ? 1.f / 30 : 1.f / 144, .max_substeps = 16});
+        if (frame >= 200)
+            most = std::max(most, rms_speed(harness.velocities(id)));
     }
+    CAPTURE(most);
+    CHECK(most < 0.1);
 }
 
 // Measured: its hem ends 0.06 m lower. Without the limit 2.7 m.
@@ -277,27 +265,23 @@ TEST_CASE("a softened mesh that nothing holds keeps its momentum and gains no en
         }
 }
 
-// Cloth lies on a sphere by shearing. Measured 0.0015 and 0.005 m/s; it ends within 1.1 mm of the middle.
+// Cloth lies on a sphere by shearing. Measured 0.005 m/s; it ends within 1.1 mm of the middle.
 TEST_CASE("softened meshes come to rest on a sphere that is smaller than they are")
 {
-    for (const bool in_rows : {true, false})
-    {
-        CAPTURE(in_rows);
-        const ClothMesh mesh = in_rows ? sheet(25) : shuffled(25);
-        voile::MeshCloth cloth = cloth_of(mesh, {});
-        cloth.transform = tests::moved({-0.5f, 0.62f, -0.5f});
-        ClothHarness harness;
-        const voile::ClothId id = take(harness.solver.add_cloth(cloth));
-        (void)take(harness.solver.add_collider(voile::SphereCollider{.center = {0, 0.3f, 0}, .radius = 0.3f}));
-        harness.upload();
-        harness.step({.max_substeps = 16}, 330);
-        glm::dvec3 center(0);
-        const std::vector<glm::vec4> x = harness.positions(id);
-        for (const glm::vec4& p : x)
-            center += glm::dvec3(p) / static_cast<double>(x.size());
-        const double rms = rms_speed(harness.velocities(id));
-        MESSAGE("rms speed " << rms << ", center " << glm::length(glm::dvec2(center.x, center.z)));
-        CHECK(rms < 0.01);
-        CHECK(glm::length(glm::dvec2(center.x, center.z)) < 0.004);
-    }
+    const ClothMesh mesh = shuffled(25);
+    voile::MeshCloth cloth = cloth_of(mesh, {});
+    cloth.transform = tests::moved({-0.5f, 0.62f, -0.5f});
+    ClothHarness harness;
+    const voile::ClothId id = take(harness.solver.add_cloth(cloth));
+    (void)take(harness.solver.add_collider(voile::SphereCollider{.center = {0, 0.3f, 0}, .radius = 0.3f}));
+    harness.upload();
+    harness.step({.max_substeps = 16}, 330);
+    glm::dvec3 center(0);
+    const std::vector<glm::vec4> x = harness.positions(id);
+    for (const glm::vec4& p : x)
+        center += glm::dvec3(p) / static_cast<double>(x.size());
+    const double rms = rms_speed(harness.velocities(id));
+    MESSAGE("rms speed " << rms << ", center " << glm::length(glm::dvec2(center.x, center.z)));
+    CHECK(rms < 0.01);
+    CHECK(glm::length(glm::dvec2(center.x, center.z)) < 0.004);
 }

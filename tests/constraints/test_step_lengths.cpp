@@ -23,10 +23,6 @@ constexpr float k_frame = 1.f / 60; // s
 constexpr uint32_t k_side = 20;
 
 // s, of the i-th frame.
-float equal(int)
-{
-    return k_frame;
-}
 float every_second_missed(int i)
 {
     return i % 2 == 0 ? k_frame : 2 * k_frame;
@@ -113,17 +109,15 @@ TEST_CASE("a curtain on a budget hangs quietly, however unequal its steps are")
         bool mesh;
         float (*length)(int);
         voile::Step step;
-        double most; // m/s; before: 0.10, 1.43, 2.34, 4.75, 0.12, 2.31, 5.5
+        double most; // m/s; measured: 0.021, 0.015, 0.20, 0.010, 0.012; before: 1.43, 2.34, 4.75, 2.31, 5.5
     };
     const voile::Step budget{.max_substeps = 16};
     const voile::Step fixed{.substeps = 16};
-    for (const Case& of : {Case{"grid, equal", false, equal, budget, 0.2},
-                           Case{"grid, every second missed", false, every_second_missed, budget, 0.1},
-                           Case{"grid, uneven", false, uneven, budget, 0.1},
+    for (const Case& of : {Case{"grid, every second missed", false, every_second_missed, budget, 0.08},
+                           Case{"grid, uneven", false, uneven, budget, 0.06},
                            Case{"grid, uneven, a fixed number", false, uneven, fixed, 0.7},
-                           Case{"mesh, equal", true, equal, budget, 0.3},
-                           Case{"mesh, every second missed", true, every_second_missed, budget, 0.7},
-                           Case{"mesh, uneven", true, uneven, budget, 0.7}})
+                           Case{"mesh, every second missed", true, every_second_missed, budget, 0.04},
+                           Case{"mesh, uneven", true, uneven, budget, 0.05}})
     {
         CAPTURE(std::string(of.name));
         Curtain curtain(of.mesh);

@@ -131,7 +131,7 @@ void drive(const voile::Collider& collider, float speed, bool self_collision, co
     const voile::ColliderId id = voile::engine::take(harness.solver.add_collider(collider));
     harness.upload();
     float lowest = 0;
-    const uint32_t frames = speed < 4 ? 12 : speed < 10 ? 5 : 2;
+    const uint32_t frames = speed < 4 ? 8 : speed < 10 ? 5 : 2;
     for (uint32_t frame = 1; frame <= frames; ++frame)
     {
         REQUIRE(move(harness.solver, id, speed * k_frame * static_cast<float>(frame)));

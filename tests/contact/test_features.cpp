@@ -265,9 +265,7 @@ TEST_CASE("cloth moves equally in every run where there is no room for all featu
     for (const uint32_t items : {1u, 4u})
     {
         CAPTURE(items);
-        const std::vector<glm::vec4> first = fall(items);
-        for (int run = 0; run < 2; ++run)
-            CHECK(tests::same_bits(first, fall(items)));
+        CHECK(tests::same_bits(fall(items), fall(items)));
     }
 }
 

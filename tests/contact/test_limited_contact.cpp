@@ -142,7 +142,7 @@ TEST_CASE("a door 4 cm thick swings through a curtain of denim on a budget of su
 // Measured 0; without features after the limit 379 and more triangles of cloth and edges across each other.
 TEST_CASE("cloth with a strain limit of its own that is shot at a box has no edge through it at the end")
 {
-    for (const float speed : {5.f, 20.f, 40.f})
+    for (const float speed : {5.f, 40.f})
     {
         CAPTURE(speed);
         ClothHarness harness({.intersections = true});

@@ -14,8 +14,8 @@ namespace
 
 using tests::airless_pair_sheet;
 using tests::at;
+using tests::budget_in_turn;
 using tests::Capes;
-using tests::k_budgets;
 using tests::k_frame;
 using tests::PairHarness;
 using tests::position_of;
@@ -63,30 +63,31 @@ uint64_t forced(PairHarness& harness)
 
 TEST_CASE("layers on a floor that moves at 2 to 30 m/s do not slip, with all substeps and with 8")
 {
-    for (const auto& [name, add_floor] :
-         {std::pair("box", &box_floor), std::pair("mesh that deforms", &deforming_floor),
-          std::pair("box over ground at rest", &floor_over_ground)})
-        for (const float speed : {2.f, 30.f})
-            for (const uint32_t substeps : k_budgets)
+    uint32_t run = 0;
+    for (const float speed : {2.f, 30.f})
+        for (const auto& [name, add_floor] :
+             {std::pair("box", &box_floor), std::pair("mesh that deforms", &deforming_floor),
+              std::pair("box over ground at rest", &floor_over_ground)})
+        {
+            const uint32_t substeps = budget_in_turn(run++);
+            CAPTURE(name);
+            CAPTURE(speed);
+            CAPTURE(substeps);
+            PairHarness harness;
+            const MoveFloor move = add_floor(harness);
+            tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {speed, 0, 0}), {0.013f, 0, 0.007f});
+            harness.upload();
+            constexpr int k_frames = 10;
+            for (int frame = 1; frame <= k_frames; ++frame)
             {
-                CAPTURE(name);
-                CAPTURE(speed);
-                CAPTURE(substeps);
-                PairHarness harness;
-                const MoveFloor move = add_floor(harness);
-                tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {speed, 0, 0}), {0.013f, 0, 0.007f});
-                harness.upload();
-                constexpr int k_frames = 10;
-                for (int frame = 1; frame <= k_frames; ++frame)
-                {
-                    move(harness, speed * k_frame * static_cast<float>(frame));
-                    harness.step(step_of(substeps));
-                }
-                const double moved = static_cast<double>(speed * k_frame * k_frames);
-                for (const voile::ClothId cloth : harness.cloths)
-                    CHECK(std::abs(position_of(harness, cloth) - moved - 0.013) < 2e-4);
-                CHECK(harness.intersections() == 0);
+                move(harness, speed * k_frame * static_cast<float>(frame));
+                harness.step(step_of(substeps));
             }
+            const double moved = static_cast<double>(speed * k_frame * k_frames);
+            for (const voile::ClothId cloth : harness.cloths)
+                CHECK(std::abs(position_of(harness, cloth) - moved - 0.013) < 2e-4);
+            CHECK(harness.intersections() == 0);
+        }
 }
 
 TEST_CASE("capes on anchors that move at 8 to 40 m/s stay at rest relative to them")

@@ -88,13 +88,14 @@ struct Turn
     uint32_t layers;
 };
 
-// The most stretch in 48 frames.
+// The most stretch until 0.2 s after the rate is reached.
 float stretch_of(const Turn& turn, bool self_collision)
 {
     PairHarness harness;
     TurningCapes capes(harness, turn.layers, self_collision);
     float stretch = 0;
-    for (int frame = 1; frame <= 48; ++frame)
+    const auto frames = static_cast<int>((turn.start + 0.2f) / k_frame);
+    for (int frame = 1; frame <= frames; ++frame)
     {
         capes.turn(angle_at(k_frame * static_cast<float>(frame), turn.rate, turn.start));
         harness.step(step_of(turn.substeps));
@@ -164,39 +165,39 @@ TEST_CASE("capes follow anchors that turn at 5 and 7 rad/s in 8 and 16 substeps,
 TEST_CASE("layers on a turntable turn with it, with all substeps and with 8")
 {
     for (const float rate : {3.f, 6.f})
-        for (const uint32_t substeps : tests::k_budgets)
+    {
+        const uint32_t substeps = rate < 5 ? 8 : k_all;
+        CAPTURE(rate);
+        CAPTURE(substeps);
+        PairHarness harness;
+        const auto table =
+            take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.1f, -0.5f}, .max = {0.5f, 0, 0.5f}}));
+        tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {0, 0, 0}), {0.02f, 0, 0});
+        harness.upload();
+        std::vector<std::vector<glm::vec4>> before;
+        for (const voile::ClothId id : harness.cloths)
+            before.push_back(harness.positions(id));
+        float angle = 0;
+        for (int frame = 1; frame <= 30; ++frame)
         {
-            CAPTURE(rate);
-            CAPTURE(substeps);
-            PairHarness harness;
-            const auto table = take(
-                harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.1f, -0.5f}, .max = {0.5f, 0, 0.5f}}));
-            tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {0, 0, 0}), {0.02f, 0, 0});
-            harness.upload();
-            std::vector<std::vector<glm::vec4>> before;
-            for (const voile::ClothId id : harness.cloths)
-                before.push_back(harness.positions(id));
-            float angle = 0;
-            for (int frame = 1; frame <= 30; ++frame)
-            {
-                angle = angle_at(k_frame * static_cast<float>(frame), rate, 0.25f);
-                take(harness.solver.move_collider(table, turned(angle, {0, 1, 0})));
-                harness.step(step_of(substeps));
-            }
-            float slip = 0;
-            for (size_t i = 0; i < before.size(); ++i)
-            {
-                const std::vector<glm::vec4> now = harness.positions(harness.cloths[i]);
-                for (size_t k = 0; k < now.size(); ++k)
-                {
-                    const glm::vec3 carried = turned(angle, {0, 1, 0}) * glm::vec4(glm::vec3(before[i][k]), 1);
-                    slip = std::max(slip, glm::length(glm::vec2(now[k].x - carried.x, now[k].z - carried.z)));
-                }
-            }
-            // Without self-collision, one layer slips by 0.6 and 2.4 mm with all substeps, and by twice as much with 8.
-            CHECK(slip < (rate < 5 ? 0.0007f : 0.0028f) * (substeps == 8 ? 2 : 1));
-            CHECK(harness.intersections() == 0);
+            angle = angle_at(k_frame * static_cast<float>(frame), rate, 0.25f);
+            take(harness.solver.move_collider(table, turned(angle, {0, 1, 0})));
+            harness.step(step_of(substeps));
         }
+        float slip = 0;
+        for (size_t i = 0; i < before.size(); ++i)
+        {
+            const std::vector<glm::vec4> now = harness.positions(harness.cloths[i]);
+            for (size_t k = 0; k < now.size(); ++k)
+            {
+                const glm::vec3 carried = turned(angle, {0, 1, 0}) * glm::vec4(glm::vec3(before[i][k]), 1);
+                slip = std::max(slip, glm::length(glm::vec2(now[k].x - carried.x, now[k].z - carried.z)));
+            }
+        }
+        // Without self-collision, one layer slips by 0.6 and 2.4 mm with all substeps, and by twice as much with 8.
+        CHECK(slip < (rate < 5 ? 0.0007f : 0.0028f) * (substeps == 8 ? 2 : 1));
+        CHECK(harness.intersections() == 0);
+    }
 }
 
 // One sheet without self-collision keeps 0.945, 0.943 and 0.962 of its speed: the channel has flat sides.

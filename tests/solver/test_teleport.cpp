@@ -102,7 +102,7 @@ TEST_CASE("a dressed character that is teleported is there at once, and its clot
             Caped jumps(dress.self_collision, dress.pins_have_positions, dress.mesh);
             Caped stays(dress.self_collision, dress.pins_have_positions, dress.mesh);
             const voile::Step step{.max_substeps = most, .air_density = 0};
-            for (int i = 0; i < 30; ++i)
+            for (int i = 0; i < 20; ++i)
                 for (Caped* character : {&jumps, &stays})
                     character->step(step);
             jumps.teleport(to);

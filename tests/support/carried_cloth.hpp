@@ -72,6 +72,13 @@ inline voile::Step step_of(uint32_t substeps)
 
 inline constexpr uint32_t k_budgets[] = {k_all, 8};
 
+// Where all combinations of factors would take a software device minutes, budgets take turns. With an odd number of
+// runs per value of the outer factor, each value of a factor meets each budget.
+inline uint32_t budget_in_turn(uint32_t run)
+{
+    return k_budgets[run % std::size(k_budgets)];
+}
+
 // Two layers, the upper one turned a little.
 inline void add_layers(PairHarness& harness, const voile::GridCloth& lower, const glm::vec3& position)
 {
