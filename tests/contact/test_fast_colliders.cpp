@@ -13,7 +13,7 @@ namespace
 
 constexpr float k_frame = 1.f / 60;
 constexpr float k_thin = 0.001f; // m
-constexpr float k_speeds[] = {5, 30, 100};
+constexpr float k_speeds[] = {5, 100};
 constexpr float k_slow_speeds[] = {2, 5}; // at which cloth that collides with itself is not left behind
 
 // A mesh above the sheet.
@@ -185,13 +185,12 @@ TEST_CASE("colliders that are driven through a sheet at up to 100 m/s take it al
 
 TEST_CASE("colliders that are driven into a sheet that collides with itself take it along")
 {
-    for (const float speed : k_slow_speeds)
-    {
-        for (const Driven& shape : driven())
-            drive_rigid(shape, speed, true);
-        for (const voile::Collider& solid : solids())
-            drive(solid, speed, true, lower);
-    }
+    size_t run = 0;
+    const auto speed = [&run] { return k_slow_speeds[run++ % std::size(k_slow_speeds)]; }; // in turn
+    for (const Driven& shape : driven())
+        drive_rigid(shape, speed(), true);
+    for (const voile::Collider& solid : solids())
+        drive(solid, speed(), true, lower);
 }
 
 // A flat mesh has no features where it was added. Folded along its middle, it lifts a sheet without vertices near the

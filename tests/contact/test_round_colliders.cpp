@@ -34,7 +34,7 @@ struct Stretches
 };
 
 constexpr float k_before = 0.5f; // m, from what goes through the cloth to it
-constexpr float k_behind = 2.5f; // m, that it goes on
+constexpr float k_behind = 2.2f; // m, that it goes on
 
 // Hangs in the plane z = 0, pinned along its top.
 voile::GridCloth hanging(uint32_t columns, uint32_t rows, glm::vec2 size, float height)

@@ -113,8 +113,7 @@ TEST_CASE("taut cloth lies on a ball, on a capsule and on a box")
     const voile::SphereCollider ball{.center = {0.01f, -0.2f, 0.02f}, .radius = k_radius};
     CHECK(energy_on(ball, 0.22f) < 0.07); // measured: 0.020; before 0.14
     const voile::CapsuleCollider capsule{.from = {-0.05f, -0.2f, 0.02f}, .to = {0.06f, -0.2f, 0}, .radius = 0.04f};
-    CHECK(energy_on(capsule, 0.22f) < 0.05); // measured: 0.012; before 0.93
-    CHECK(energy_on(capsule, 0.24f) < 0.5);  // measured: 0.11; before 4.4
+    CHECK(energy_on(capsule, 0.24f) < 0.5); // measured: 0.11; before 4.4
     const voile::BoxCollider box{.min = {-0.04f, -0.25f, -0.03f}, .max = {0.06f, -0.15f, 0.07f}};
     CHECK(energy_on(box, 0.23f) < 2); // measured: 1.3; before 3.3
 }
