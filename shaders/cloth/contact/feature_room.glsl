@@ -90,6 +90,14 @@ uint count_with(uint in_group, uint most)
     return chosen < k_margins ? scratch[k_margins * in_group + chosen] : 0;
 }
 
+// `fits`: it has all features that are near as items.
+void write_cell(PatchVertex self, uint first, uint count, bool fits)
+{
+    if (self.exists)
+        cells[self.index] = FeatureCell(first, count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, VOILE_NO_SUBSTEP,
+                                        uvec4[2](uvec4(0), uvec4(0)));
+}
+
 // Chooses the margin of a vertex and claims room for its items. False: it has none.
 bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_group)
 {
@@ -128,9 +136,8 @@ bool allocate(inout FeatureSearch search, bool countable, uint lane, uint in_gro
     for (uint i = thread - lane; i < thread; ++i)
         search.next += lane_counts[i];
     search.end = search.next + (room ? count : 0);
-    if (lane == 0 && search.self.exists)
-        cells[search.self.index] = FeatureCell(first, cell_count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, VOILE_NO_SUBSTEP,
-                                               uvec4[2](uvec4(0), uvec4(0)));
+    if (lane == 0)
+        write_cell(search.self, first, cell_count, fits);
     return room && cell_count > 0;
 }
 

@@ -364,6 +364,12 @@ void main()
     barrier();
     find_margins(thread, walked);
     barrier();
+    if (reaching_vertices == 0)
+    {
+        if (lane == 0)
+            write_cell(search.self, push.first_item, 0, has_numbers(search.self));
+        return;
+    }
 
     search.counts = uvec4(0);
     search.narrowed = 0;
@@ -372,14 +378,13 @@ void main()
     search.motion = vec3(0);
     search.spread = 0;
     search.widest = uintBitsToFloat(lane_counts[in_group]);
-    const bool reaches = reaching_vertices != 0;
     bool searches = search.self.exists;
     search.margin = search.widest;
     // The same instructions count and write, so that rounding does not decide differently.
     for (uint round = 0; round < 2; ++round)
     {
         search.writes = round == 1;
-        search.ended = !reaches || (search.writes && items_of_group == 0);
+        search.ended = search.writes && items_of_group == 0;
         search_colliders(search, searches, walked, lane);
         if (search.writes)
             continue;

@@ -135,7 +135,7 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
     with.tuning.feature_threads =
         threads_per_vertex(context.value(), options.tuning, options.tuning.feature_threads, 1);
     with.tuning.listing_threads =
-        threads_per_vertex(context.value(), options.tuning, options.tuning.listing_threads, 4);
+        threads_per_vertex(context.value(), options.tuning, options.tuning.listing_threads, 2);
     with.tuning.dispatch_vertices = dispatch_vertices(context.value(), options);
     const JobScope scope(options.jobs);
     auto kernels = create_kernels(context.value(), with);
