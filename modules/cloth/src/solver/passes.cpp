@@ -24,7 +24,7 @@ void add_passes(Passes& passes, const ColliderModel& collider)
     passes.moving |= is_moving(record);
     passes.convex |= convex;
     passes.depenetration |= convex || (record.flags & k_solid) == k_solid;
-    passes.features |= collider.features && collider.features->set.features > 0;
+    passes.features += collider.features ? collider.features->set.features : 0;
     passes.mesh_extent = std::max(passes.mesh_extent, record.extent);
 }
 

@@ -96,7 +96,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
     if (commands != nullptr)
         commands->end(recorder);
     history.pairs_met = solver.passes.pairs;
-    history.features_listed = solver.passes.features;
+    history.features_listed = solver.passes.features > 0;
     if (solver.passes.pairs)
         history.next_pair_pass += plan.pairs.passes(plan.substeps);
 }

@@ -20,12 +20,12 @@ namespace
 {
 
 // CPU devices have few, narrow subgroups. There several threads per vertex only repeat the work that they have in
-// common. When features are listed they save some: the fewer vertices a workgroup has, the fewer features are near.
-uint32_t threads_per_vertex(const gpu::Context& context, const Tuning& tuning, uint32_t wanted, uint32_t on_cpus)
+// common.
+uint32_t feature_threads(const gpu::Context& context, const Tuning& tuning)
 {
     constexpr uint32_t k_many = 8; // a grid has six triangles around a vertex
     const bool is_cpu = context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    return wanted > 0 ? wanted : std::min(is_cpu ? on_cpus : k_many, tuning.workgroup_size);
+    return tuning.feature_threads > 0 ? tuning.feature_threads : std::min(is_cpu ? 1 : k_many, tuning.workgroup_size);
 }
 
 // Measured: bench/NOTES.md, "Forces that threads share".
@@ -132,10 +132,7 @@ Result<Solver> Solver::create(const Handles& handles, const SolverOptions& optio
         return layout.error();
     SolverOptions with = options;
     with.tuning.sharing_vertices = sharing_vertices(context.value(), options);
-    with.tuning.feature_threads =
-        threads_per_vertex(context.value(), options.tuning, options.tuning.feature_threads, 1);
-    with.tuning.listing_threads =
-        threads_per_vertex(context.value(), options.tuning, options.tuning.listing_threads, 2);
+    with.tuning.feature_threads = feature_threads(context.value(), options.tuning);
     with.tuning.dispatch_vertices = dispatch_vertices(context.value(), options);
     const JobScope scope(options.jobs);
     auto kernels = create_kernels(context.value(), with);

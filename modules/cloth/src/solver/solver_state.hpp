@@ -50,7 +50,7 @@ struct Passes
 {
     bool moving = false;         // colliders that move or deform
     bool convex = false;         // colliders with a formula, other than planes
-    bool features = false;       // colliders with features
+    uint32_t features = 0;       // of all colliders
     uint32_t strain_spacing = 0; // the widest level of limit_strain.comp; 0: no cloth has a strain limit
     uint32_t strain_passes = 0;  // on each level
     bool smooths = false;        // a cloth has the strain limit of softened cloth

@@ -41,6 +41,19 @@ uint32_t substeps_per_contact(const Solver::State& solver, const PairSchedule& p
     return std::max(1u, static_cast<uint32_t>(std::min(interval / substep + k_rounding, most)));
 }
 
+// Per vertex, when features are listed. On CPU devices workgroups cost more than threads. Where there are many features
+// they save some: the fewer vertices a workgroup has, the fewer features are near (bench/NOTES.md).
+uint32_t listing_threads(const Solver::State& solver)
+{
+    constexpr uint32_t k_many_features = 2048;
+    const Tuning& tuning = solver.options.tuning;
+    if (tuning.listing_threads > 0)
+        return tuning.listing_threads;
+    const bool is_cpu = solver.context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const uint32_t on_cpus = solver.passes.features < k_many_features ? 2 : 4;
+    return std::min(is_cpu ? on_cpus : 8, tuning.workgroup_size);
+}
+
 } // namespace
 
 BatchRecorder::BatchRecorder(const StepContext& context, uint32_t batch)
@@ -199,7 +212,7 @@ void BatchRecorder::record_near_features(uint32_t substep)
 {
     const uint32_t word = batch_ * VOILE_FEATURE_DISPATCH_WORDS;
     // Each patch has that many workgroups.
-    uint32_t lanes = solver_.options.tuning.listing_threads;
+    uint32_t lanes = listing_threads(solver_);
     while (lanes > 1 && lists_.patches.count > solver_.context.limits.maxComputeWorkGroupCount[0] / lanes)
         lanes /= 2;
     const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0};
