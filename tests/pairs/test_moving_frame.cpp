@@ -65,16 +65,15 @@ TEST_CASE("layers on a floor that moves at 2 to 30 m/s do not slip, with all sub
 {
     uint32_t run = 0;
     for (const float speed : {2.f, 30.f})
-        for (const auto& [name, add_floor] :
-             {std::pair("box", &box_floor), std::pair("mesh that deforms", &deforming_floor),
-              std::pair("box over ground at rest", &floor_over_ground)})
+        for (const auto& floor : {std::pair("box", &box_floor), std::pair("mesh that deforms", &deforming_floor),
+                                  std::pair("box over ground at rest", &floor_over_ground)})
         {
             const uint32_t substeps = budget_in_turn(run++);
-            CAPTURE(name);
+            CAPTURE(floor.first);
             CAPTURE(speed);
             CAPTURE(substeps);
             PairHarness harness;
-            const MoveFloor move = add_floor(harness);
+            const MoveFloor move = floor.second(harness);
             tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {speed, 0, 0}), {0.013f, 0, 0.007f});
             harness.upload();
             constexpr int k_frames = 10;

@@ -93,18 +93,19 @@ TEST_CASE("samples refuse arguments that are none of theirs")
     const std::vector<Case> none = {{"--bogus", "unknown argument '--bogus'"}, {"a b c", "unknown argument 'a'"}};
     const std::vector<Case> file = {{"--bogus", "unknown argument '--bogus'"}, {"a.ply b", "unknown argument 'b'"}};
     const TestFolder folder;
-    for (const auto& [name, cases] :
+    for (const auto& sample :
          {std::pair{"hello_cloth", headless}, std::pair{"own_component", headless}, std::pair{"skinned", headless},
           std::pair{"batch", none}, std::pair{"async_compute", none}, std::pair{"foreign_engine", file}})
-        for (const auto& [arguments, reason] : cases)
+        for (const Case& of : sample.second)
         {
+            const char* name = sample.first;
             CAPTURE(name);
-            CAPTURE(arguments);
-            const SampleRun run = run_sample(folder, name, arguments);
+            CAPTURE(of.arguments);
+            const SampleRun run = run_sample(folder, name, of.arguments);
             CHECK(run.status == 1);
             CHECK(run.output.empty());
             REQUIRE(run.errors.size() >= 2);
-            CHECK(run.errors[0].text == std::string(name) + ": " + reason);
+            CHECK(run.errors[0].text == std::string(name) + ": " + of.reason);
             CHECK(run.errors[1].text.starts_with("usage: " + std::string(name)));
         }
     CHECK(folder.entries() == 1); // output.txt
