@@ -3,8 +3,8 @@
 //
 // The including kernel declares cloths[], limit_vertices[], limit_levels[], limit_links[], positions[], velocities[]
 // and step_velocities[].
-#ifndef VOILE_LEVEL_NEIGHBORS_GLSL
-#define VOILE_LEVEL_NEIGHBORS_GLSL
+#ifndef VOILE_LIMIT_NEIGHBORS_GLSL
+#define VOILE_LIMIT_NEIGHBORS_GLSL
 
 #include "constraints/limit_levels.glsl"
 #include "constraints/limit_spring.glsl"

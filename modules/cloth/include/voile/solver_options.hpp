@@ -41,7 +41,7 @@ struct Tuning
 
     // Invocations per vertex when features near the cloth are listed. They share its triangles and edges, and its
     // contacts are merged in another order. A power of two up to workgroup_size. 0: eight, or on CPU devices
-    // two, and four for many features.
+    // two, and four from 2,048 features of all colliders on.
     uint32_t listing_threads = 0;
 
     // The room for features near the cloth, as a mean number per vertex, at most 128, 112 bytes each. None: 8 per
