@@ -2,9 +2,12 @@
 #include "support/pair_harness.hpp"
 #include "support/random_cloths.hpp"
 
+#include "shared/pair_layout.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace
 {
@@ -12,6 +15,7 @@ namespace
 using tests::at;
 using tests::PairHarness;
 using tests::turned;
+using voile::engine::take;
 
 constexpr voile::Step k_weightless{.duration = 1.f / 60, .gravity = {0, 0, 0}};
 
@@ -121,6 +125,47 @@ TEST_CASE("tangled pairs are counted as they are when the step starts, within a 
         CHECK(harness.statistics().tangled_pairs == exact);
     }
     CHECK(most > 20);
+}
+
+TEST_CASE("what the host changes is searched for tangles in the next step")
+{
+    const auto enable = [](voile::Solver& solver, voile::ClothId cloth, bool meets)
+    { take(solver.set_enabled(cloth, meets)); };
+    const auto layer = [](voile::Solver& solver, voile::ClothId cloth, bool meets)
+    { take(solver.set_layers(cloth, meets ? 1 : 2)); };
+    for (const auto& change : {std::function(enable), std::function(layer)})
+    {
+        PairHarness harness;
+        add_two(harness, k_half);
+        change(harness.solver, harness.cloths[1], false);
+        harness.step(k_weightless, 3);
+        CHECK(harness.statistics().tangled_pairs == 0);
+        change(harness.solver, harness.cloths[1], true);
+        const uint64_t exact = harness.intersections();
+        CHECK(exact > 10);
+        harness.step(k_weightless);
+        CHECK(harness.statistics().tangled_pairs == exact);
+    }
+}
+
+TEST_CASE("tangles of which the solver cannot know are found within eight steps")
+{
+    PairHarness harness;
+    add_two(harness, at({0, 1, 0}) * k_half);
+    harness.step(k_weightless, 3);
+    std::vector<glm::vec4> positions = harness.positions(harness.cloths[1]);
+    for (glm::vec4& p : positions)
+        p.y -= 1;
+    move_vertices(harness, harness.cloths[1], positions);
+    uint32_t steps = 0;
+    while (harness.statistics().tangled_pairs == 0 && steps++ < VOILE_TANGLE_PARTS)
+        harness.step(k_weightless);
+    CHECK(harness.statistics().tangled_pairs > 0);
+    const uint64_t exact = harness.intersections();
+    CHECK(exact > 10);
+    harness.step(k_weightless);
+    CHECK(harness.statistics().tangled_pairs == exact);
+    CHECK(pull_apart(harness, 35).frames > 0);
 }
 
 TEST_CASE("cloths of different layers are not pulled apart, nor one that does not collide with itself")

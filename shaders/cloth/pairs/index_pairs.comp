@@ -180,6 +180,9 @@ void main()
         begin_clock(c);
     if (gl_GlobalInvocationID.x == 0)
     {
+        if (push.pass == 0)
+            pair_searches[VOILE_PAIR_UNTANGLED].entries =
+                pair_searches[VOILE_PAIR_TANGLED].entries == 0 ? pair_searches[VOILE_PAIR_UNTANGLED].entries + 1 : 0;
         pair_searches[VOILE_PAIR_URGENCY].entries = 0;
         ++pair_searches[VOILE_PAIR_SEARCHED].entries;
         pair_passes[VOILE_PAIR_FIND] = pair_passes[VOILE_PAIR_SIFT] = PairDispatch(0, 1, 1, 0);

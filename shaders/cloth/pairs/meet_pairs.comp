@@ -39,6 +39,7 @@ layout(push_constant, std430) uniform Push { PairPush push; };
 #include "contact/friction_law.glsl"
 #include "pairs/clock.glsl"
 #include "pairs/direction.glsl"
+#include "pairs/forced.glsl"
 #include "pairs/halvings.glsl"
 #include "pairs/pair.glsl"
 #include "pairs/push.glsl"
@@ -349,7 +350,7 @@ void meet(uint entry)
     const float spare = room - needed.x - needed.y;
     const bool sideless = is_at_one_place(apart, lever, thickness, positions[pair.vertices.x].xyz);
     if ((spare < 0 || sideless) && first)
-        atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
+        count_forced();
     const float slack = sideless ? k_sideless_room : max((first ? needed.x : needed.y) + 0.5 * spare, 0);
     const uvec2 own = first ? uvec2(0, sides) : uvec2(sides, 4);
     const float carry = carry_of_planes(sides, vertices, separation,

@@ -4,6 +4,7 @@
 #ifndef VOILE_STOP_GLSL
 #define VOILE_STOP_GLSL
 
+#include "pairs/forced.glsl"
 #include "pairs/hold.glsl"
 #include "pairs/patience.glsl"
 
@@ -78,7 +79,7 @@ void watch_driven(uint i, uint cloth, Motion motion)
     const Hold hold = hold_of(i, cloth, motion.from);
     ask_for_lists(hold, motion, false);
     if (!is_in_sweep(hold, motion.displacement))
-        atomicAdd(pair_searches[VOILE_PAIR_FORCED].entries, 1);
+        count_forced();
 }
 
 #endif

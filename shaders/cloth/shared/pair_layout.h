@@ -38,6 +38,10 @@
 #define VOILE_PAIR_CROWDED 11
 #define VOILE_PAIR_CROWDED_PASSES 64
 #define VOILE_PAIR_CROWDED_LIST 2
+// The number of steps in a row that found no tangles and forced no pairs. It is kept from step to step. Then a step
+// searches for tangles from one of so many parts of the triangles.
+#define VOILE_PAIR_UNTANGLED 12
+#define VOILE_TANGLE_PARTS 8
 // Directions out of tangles are summed up in this unit.
 #define VOILE_TANGLE_UNIT (1.0f / 4096)
 // How often the sweep of a vertex is halved (PairMemory): the bits of the number; by how much it rises where a sweep

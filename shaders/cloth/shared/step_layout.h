@@ -44,6 +44,7 @@ struct StepInput
     uint first_pair_pass; // counted over all steps
     float pair_fall;      // m: how far gravity alone may carry a vertex until lists of pairs are made again
     uint driven;          // 1: colliders or anchors may move
+    uint edited;          // 1: the host has changed more than that since the last step
 };
 
 // Push constants of the integration passes. Times are in substeps of level 0.
@@ -69,7 +70,7 @@ struct EditPush
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(StepInput) == 96);
+static_assert(sizeof(StepInput) == 100);
 static_assert(offsetof(StepInput, gust_phases) == 32 && offsetof(StepInput, gust_speed) == 64);
 static_assert(offsetof(EditPush, velocity) == 64);
 #endif

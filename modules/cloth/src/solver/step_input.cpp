@@ -52,6 +52,7 @@ shared::StepInput make_step_input(const Solver::State& solver, const StepHistory
     input.first_pair_pass = history.next_pair_pass;
     input.pair_fall = fall_of_pairs(step.gravity);
     input.driven = solver.passes.moving || solver.farthest_motion > 0 ? 1 : 0;
+    input.edited = history.depenetration_due ? 1 : 0;
     return input;
 }
 
