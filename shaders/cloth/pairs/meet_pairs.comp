@@ -72,8 +72,11 @@ const float k_least_support = 0.7;
 // The most by which that strengthens an impulse: then sides of equal mass would bounce if there was no support.
 const float k_most_support = 2;
 const float k_most_half = 65504;
-// Halfs are rounded by less than this part.
+// Halfs are rounded by less than this part, and small ones by less than this, m.
 const float k_half_rounding = 1e-3;
+const float k_least_half = 6e-8;
+// rad: by how much packing tilts a direction at most (measured for a million: 6.4e-5).
+const float k_direction_rounding = 6.5e-5;
 
 // The vertices of a pair at the start of the pass.
 struct Vertices
@@ -290,12 +293,23 @@ void add_load(uint vertex, float weight)
     atomicAdd(pair_loads[(pair_pass() & 1u) * push.vertices + vertex], uint(ceil(abs(weight) * VOILE_PAIR_UNIT_LOAD)));
 }
 
+// m: how far packing the direction tilts a side out of its plane. Vertices that are behind it by no more may not approach: the next
+// pass rounds another direction, so that sides which are pressed together would come nearer in each. `own`: as in heights_of.
+float tilt_of(uvec2 own, Vertices vertices)
+{
+    float longest = 0;
+    for (uint k = own.x; k < own.y; ++k)
+        longest = max(longest, distance(vertices.x[k], vertices.x[own.x]));
+    return 2 * k_direction_rounding * longest + k_least_half;
+}
+
 // How far the vertices of the own side may approach, `slack` for all, and how far the clock carries the planes
 // (PairResponse::heights). Where it would lead them together by more than a part of `slack`, it slows down.
 // `own`: the first place of the side, and the first one after it.
 uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slack, float carry)
 {
     const float room = k_carried_part * slack;
+    const float tilt = tilt_of(own, vertices);
     vec3 heights = vec3(0);
     float rate = 1;
     for (uint k = own.x; k < own.y; ++k)
@@ -303,7 +317,7 @@ uvec2 heights_of(uvec2 own, Vertices vertices, Separation separation, float slac
         const float nearer = (carry - dot(separation.n, vertices.carry[k])) * (own.x == 0 ? 1 : -1);
         if (nearer > separation.from_plane[k] + room)
             rate = min(rate, (separation.from_plane[k] + room) / nearer);
-        heights[k - own.x] = (1 - k_half_rounding) * (separation.from_plane[k] + slack);
+        heights[k - own.x] = (1 - k_half_rounding) * (max(separation.from_plane[k] - tilt, 0) + slack);
     }
     if (rate < 1)
         atomicMin(pair_islands[vertices.island].rates[pair_pass() & 1u], floatBitsToUint(rate));

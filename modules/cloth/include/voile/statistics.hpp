@@ -72,7 +72,8 @@ struct Statistics
                                   // may intersect; counted once per pass over the pairs
     uint32_t tangled_pairs = 0;   // of cloths that collide with themselves: pairs of an edge and a triangle that
                                   // intersected when the last step started, as in IntersectionCounts::cloth_pairs,
-                                  // except parts of a mesh that touch at the start; the solver pulls them apart
+                                  // except parts of a mesh that touch at the start; the solver pulls them apart.
+                                  // Where the host writes vertices itself, it takes up to 8 steps to see all of them
     uint32_t pair_searches = 0;   // of cloths that collide with themselves: how often the last step searched
                                   // for near pairs, at most once per pass over them, and at least once if such
                                   // a cloth is enabled, also if it sleeps (Tuning::waiting_vertices)
