@@ -62,6 +62,28 @@ TEST_CASE_FIXTURE(IntersectionHarness, "crumpled grids and meshes have as many i
     }
 }
 
+TEST_CASE_FIXTURE(IntersectionHarness,
+                  "where hundreds of triangles intersect each other, the count is exact or says that it is not")
+{
+    const voile::ClothId sheet = voile::engine::take(solver.add_cloth(tests::flat_grid(14, 14)));
+    upload();
+    for (const float extent : {0.1f, 0.06f})
+    {
+        CAPTURE(extent);
+        std::vector<glm::vec3> corners = tests::random_positions(14 * 14, 1, extent); // many of them at one point
+        for (glm::vec3& corner : corners)
+            corner = glm::round(16.f * corner) / 16.f;
+        place(sheet, corners);
+        const tests::ExactMesh mesh = exact(sheet);
+        const uint64_t expected = tests::count_pairs(mesh, mesh);
+        const voile::IntersectionCounts found = counts();
+        CAPTURE(expected);
+        CAPTURE(found.cloth_pairs);
+        CHECK(found.cloth_pairs <= expected);
+        CHECK((found.cloth_pairs == expected || found.uncertain_pairs > 0)); // lavapipe 22.3: 69,907, 68,435 found
+    }
+}
+
 TEST_CASE_FIXTURE(IntersectionHarness, "intersections are counted exactly far from the origin")
 {
     const voile::ClothId sheet = voile::engine::take(solver.add_cloth(tests::flat_grid(12, 11)));

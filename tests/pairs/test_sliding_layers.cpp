@@ -52,6 +52,7 @@ TEST_CASE("layers slide over boxes and meshes at 3 and 12 m/s as Coulomb's law s
         voile::Result<voile::ColliderId> (*add)(PairHarness&, const voile::engine::Mesh&);
         const voile::engine::Mesh* mesh;
         double tolerance; // of the displacement
+        float speed;      // m/s
     };
     const auto add_box = [](PairHarness& harness, const voile::engine::Mesh&) {
         return harness.solver.add_collider(voile::BoxCollider{.min = {-0.5f, -0.1f, -0.5f}, .max = {4, 0, 0.5f}});
@@ -59,28 +60,28 @@ TEST_CASE("layers slide over boxes and meshes at 3 and 12 m/s as Coulomb's law s
     const auto add_mesh = [](PairHarness& harness, const voile::engine::Mesh& mesh)
     { return harness.solver.add_collider(tests::collider(mesh)); };
     uint32_t run = 0;
-    for (const float speed : {3.f, 12.f})
-        for (const Case& test : {Case{"box", add_box, &flat, 0.01}, Case{"mesh", add_mesh, &flat, 0.01},
-                                 Case{"uneven mesh", add_mesh, &uneven, 0.1}})
-        {
-            const uint32_t substeps = budget_in_turn(run++);
-            CAPTURE(std::string(test.name));
-            CAPTURE(speed);
-            CAPTURE(substeps);
-            PairHarness harness;
-            take(test.add(harness, *test.mesh));
-            const voile::GridCloth lower = airless_pair_sheet(9, 0.02f, {speed, 0, 0});
-            tests::add_layers(harness, lower, {0, test.mesh == &uneven ? 0.004f : 0.f, 0});
-            harness.upload();
-            harness.step(step_of(substeps), 15);
-            constexpr double k_time = 0.25;
-            const double slowed = static_cast<double>(tests::fabric_of(lower).kinetic_friction) * 9.81;
-            const double moved = static_cast<double>(speed) * k_time - 0.5 * slowed * k_time * k_time;
-            for (const voile::ClothId cloth : harness.cloths)
-                CHECK(std::abs(position_of(harness, cloth) / moved - 1) < test.tolerance);
-            CHECK(harness.intersections() == 0);
-            CHECK(harness.statistics().penetrating_vertices == 0);
-        }
+    for (const Case& test :
+         {Case{"box", add_box, &flat, 0.01, 12}, Case{"mesh", add_mesh, &flat, 0.01, 3},
+          Case{"uneven mesh", add_mesh, &uneven, 0.1, 12}, Case{"uneven mesh", add_mesh, &uneven, 0.1, 3}})
+    {
+        const uint32_t substeps = budget_in_turn(run++);
+        CAPTURE(std::string(test.name));
+        CAPTURE(test.speed);
+        CAPTURE(substeps);
+        PairHarness harness;
+        take(test.add(harness, *test.mesh));
+        const voile::GridCloth lower = airless_pair_sheet(9, 0.02f, {test.speed, 0, 0});
+        tests::add_layers(harness, lower, {0, test.mesh == &uneven ? 0.004f : 0.f, 0});
+        harness.upload();
+        harness.step(step_of(substeps), 15);
+        constexpr double k_time = 0.25;
+        const double slowed = static_cast<double>(tests::fabric_of(lower).kinetic_friction) * 9.81;
+        const double moved = static_cast<double>(test.speed) * k_time - 0.5 * slowed * k_time * k_time;
+        for (const voile::ClothId cloth : harness.cloths)
+            CHECK(std::abs(position_of(harness, cloth) / moved - 1) < test.tolerance);
+        CHECK(harness.intersections() == 0);
+        CHECK(harness.statistics().penetrating_vertices == 0);
+    }
 }
 
 TEST_CASE("two sheets beside a wall of a plane, a box or a mesh fall freely, with all substeps and with 8")
@@ -89,32 +90,32 @@ TEST_CASE("two sheets beside a wall of a plane, a box or a mesh fall freely, wit
     voile::engine::Mesh wall = dense_floor(3, 1, 0);
     wall.positions = tests::transformed(wall.positions, turned(-k_pi / 2, {0, 0, 1}));
     uint32_t run = 0;
-    for (const float apart : {0.004f, 0.1f})
-        for (const int kind : {0, 1, 2})
+    for (const auto& [kind, apart] :
+         {std::pair(0, 0.004f), std::pair(1, 0.1f), std::pair(2, 0.004f), std::pair(2, 0.1f)})
+    {
+        const uint32_t substeps = budget_in_turn(run++);
+        CAPTURE(kind);
+        CAPTURE(apart);
+        CAPTURE(substeps);
+        PairHarness harness;
+        if (kind == 0)
+            take(harness.solver.add_collider(voile::PlaneCollider{.normal = {1, 0, 0}, .offset = 0}));
+        else if (kind == 1)
+            take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.1f, -3, -1}, .max = {0, 1, 1}}));
+        else
+            take(harness.solver.add_collider(tests::collider(wall)));
+        for (const float layer : {0.f, 1.f})
         {
-            const uint32_t substeps = budget_in_turn(run++);
-            CAPTURE(kind);
-            CAPTURE(apart);
-            CAPTURE(substeps);
-            PairHarness harness;
-            if (kind == 0)
-                take(harness.solver.add_collider(voile::PlaneCollider{.normal = {1, 0, 0}, .offset = 0}));
-            else if (kind == 1)
-                take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.1f, -3, -1}, .max = {0, 1, 1}}));
-            else
-                take(harness.solver.add_collider(tests::collider(wall)));
-            for (const float layer : {0.f, 1.f})
-            {
-                voile::GridCloth grid = airless_pair_sheet(9, 0.02f, {0, 0, 0});
-                const float thickness = tests::fabric_of(grid).thickness;
-                grid.transform = at({thickness * (1 + 1.05f * layer) + apart, 0, 0}) * upright;
-                harness.add(grid);
-            }
-            harness.upload();
-            harness.step(step_of(substeps), 12);
-            for (const voile::ClothId cloth : harness.cloths)
-                CHECK(std::abs(mean_of(harness.velocities(cloth)).y + 0.2 * 9.81) < 1e-3);
+            voile::GridCloth grid = airless_pair_sheet(9, 0.02f, {0, 0, 0});
+            const float thickness = tests::fabric_of(grid).thickness;
+            grid.transform = at({thickness * (1 + 1.05f * layer) + apart, 0, 0}) * upright;
+            harness.add(grid);
         }
+        harness.upload();
+        harness.step(step_of(substeps), 12);
+        for (const voile::ClothId cloth : harness.cloths)
+            CHECK(std::abs(mean_of(harness.velocities(cloth)).y + 0.2 * 9.81) < 1e-3);
+    }
 }
 
 // Vertices that a surface stops are few beside those that go on. Led on with these, they were in the sphere.
@@ -126,8 +127,7 @@ TEST_CASE("layers that hit a sphere from above and from the side do not enter it
         uint32_t vertices;  // in each direction
         uint32_t substeps;
     };
-    for (const Hit& hit :
-         {Hit{{10, -2, 0}, 9, k_all}, Hit{{10, -2, 0}, 13, 16}, Hit{{3, -3, 0}, 9, 16}, Hit{{3, -3, 0}, 13, k_all}})
+    for (const Hit& hit : {Hit{{10, -2, 0}, 9, k_all}, Hit{{10, -2, 0}, 13, 16}, Hit{{3, -3, 0}, 9, 16}})
     {
         CAPTURE(hit.velocity.x);
         CAPTURE(hit.vertices);
@@ -187,31 +187,26 @@ TEST_CASE("capes that are carried into a wall at 2 to 12 m/s neither stretch nor
 }
 
 // A box around one of the ramp's triangles has the sheets in it all the time.
-TEST_CASE("layers fall freely beside a slope of large triangles that they are far from, in 8 and 16 substeps")
+TEST_CASE("layers fall freely beside a slope of large triangles that they are far from, in 8 substeps")
 {
-    for (const uint32_t substeps : {8u, 16u})
+    constexpr uint32_t k_layers = 4;
+    PairHarness harness;
+    const voile::engine::Mesh ramp = tests::quads(
+        1, 1, [](float column, float row) { return glm::vec3(5 - 10 * column, 5 - 10 * column, 10 * row - 5); });
+    take(harness.solver.add_collider(tests::collider(ramp)));
+    const voile::GridCloth sheet = airless_pair_sheet(9, 0.025f, {0, 0, 0});
+    for (uint32_t layer = 0; layer < k_layers; ++layer)
     {
-        const uint32_t layers = substeps == 8 ? 4 : 2;
-        CAPTURE(substeps);
-        CAPTURE(layers);
-        PairHarness harness;
-        const voile::engine::Mesh ramp = tests::quads(
-            1, 1, [](float column, float row) { return glm::vec3(5 - 10 * column, 5 - 10 * column, 10 * row - 5); });
-        take(harness.solver.add_collider(tests::collider(ramp)));
-        const voile::GridCloth sheet = airless_pair_sheet(9, 0.025f, {0, 0, 0});
-        for (uint32_t layer = 0; layer < layers; ++layer)
-        {
-            voile::GridCloth grid = sheet;
-            grid.transform = at({0, 3.5f + 1.5f * tests::fabric_of(grid).thickness * static_cast<float>(layer), 0});
-            harness.add(grid);
-        }
-        harness.upload();
-        const std::vector<glm::vec4> before = harness.positions(harness.cloths[0]);
-        harness.step(step_of(substeps), 36);
-        const glm::dvec3 moved = mean_of(harness.positions(harness.cloths[0])) - mean_of(before);
-        CHECK(std::abs(moved.x) < 1e-4);
-        CHECK(moved.y == doctest::Approx(-0.5 * 9.81 * 0.36).epsilon(1e-3));
+        voile::GridCloth grid = sheet;
+        grid.transform = at({0, 3.5f + 1.5f * tests::fabric_of(grid).thickness * static_cast<float>(layer), 0});
+        harness.add(grid);
     }
+    harness.upload();
+    const std::vector<glm::vec4> before = harness.positions(harness.cloths[0]);
+    harness.step(step_of(8), 36);
+    const glm::dvec3 moved = mean_of(harness.positions(harness.cloths[0])) - mean_of(before);
+    CHECK(std::abs(moved.x) < 1e-4);
+    CHECK(moved.y == doctest::Approx(-0.5 * 9.81 * 0.36).epsilon(1e-3));
 }
 
 TEST_CASE("layers slide without friction over finely tessellated and slanted meshes, with all substeps and with 8")

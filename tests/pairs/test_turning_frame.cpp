@@ -151,9 +151,9 @@ TEST_CASE("the frame of capes on anchors that turn has their velocities, also of
     }
 }
 
-TEST_CASE("capes follow anchors that turn at 5 and 7 rad/s in 8 and 16 substeps, and at 15 with all")
+TEST_CASE("capes follow anchors that turn at 7 rad/s in 16 substeps, and at 15 with all")
 {
-    for (const Turn& turn : {Turn{5, 0.5f, 8, 2}, Turn{7, 0.5f, 16, 2}, Turn{15, 0.3f, k_all, 2}})
+    for (const Turn& turn : {Turn{7, 0.5f, 16, 2}, Turn{15, 0.3f, k_all, 2}})
     {
         CAPTURE(turn.rate);
         CAPTURE(turn.substeps);

@@ -50,7 +50,8 @@ void main()
     for (uint i = 0; i < push.trees; ++i)
         if (cloth_trees[i].cloth == tree.cloth || (cloths[cloth_trees[i].cloth].layers & layers) != 0)
             traverse_tree(query, cloth_trees[i]);
-    if (query.found.pairs == 0)
+    query.found.uncertain += runs_loops() ? 0 : 1;
+    if (query.found.pairs + query.found.uncertain == 0)
         return;
     atomicAdd(intersection_counts[0].cloth_pairs, query.found.pairs);
     atomicAdd(intersection_counts[0].uncertain_pairs, query.found.uncertain);

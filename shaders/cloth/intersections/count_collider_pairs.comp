@@ -224,7 +224,8 @@ void main()
         enter_collider(query, i, collider);
         test_collider(query, collider);
     }
-    if (query.tally.pairs == 0)
+    query.tally.uncertain += runs_loops() ? 0 : 1;
+    if (query.tally.pairs + query.tally.uncertain == 0)
         return;
     atomicAdd(intersection_counts[0].collider_pairs, query.tally.pairs);
     atomicAdd(intersection_counts[0].uncertain_pairs, query.tally.uncertain);

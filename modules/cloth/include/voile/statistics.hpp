@@ -36,7 +36,8 @@ struct IntersectionCounts
 {
     uint32_t cloth_pairs = 0;     // cloth and cloth
     uint32_t collider_pairs = 0;  // cloth and collider
-    uint32_t uncertain_pairs = 0; // pairs of both kinds that may not intersect
+    uint32_t uncertain_pairs = 0; // pairs of both kinds that may not intersect, and triangles of cloth that may be in
+                                  // more pairs: lavapipe 22.3 ends a search early that finds some hundreds
 };
 
 // Whether Solver::record_statistics counts intersections.
@@ -73,7 +74,8 @@ struct Statistics
     uint32_t tangled_pairs = 0;   // of cloths that collide with themselves: pairs of an edge and a triangle that
                                   // intersected when the last step started, as in IntersectionCounts::cloth_pairs,
                                   // except parts of a mesh that touch at the start; the solver pulls them apart.
-                                  // Where the host writes vertices itself, it takes up to 8 steps to see all of them
+                                  // Where the host writes vertices itself, it takes up to 8 steps to see all of them.
+                                  // Where triangles are in hundreds of pairs, lavapipe 22.3 does not find all
     uint32_t pair_searches = 0;   // of cloths that collide with themselves: how often the last step searched
                                   // for near pairs, at most once per pass over them, and at least once if such
                                   // a cloth is enabled, also if it sleeps (Tuning::waiting_vertices)
