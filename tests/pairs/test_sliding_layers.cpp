@@ -90,17 +90,21 @@ TEST_CASE("two sheets beside a wall of a plane, a box or a mesh fall freely, wit
     voile::engine::Mesh wall = dense_floor(3, 1, 0);
     wall.positions = tests::transformed(wall.positions, turned(-k_pi / 2, {0, 0, 1}));
     uint32_t run = 0;
-    for (const auto& [kind, apart] :
-         {std::pair(0, 0.004f), std::pair(1, 0.1f), std::pair(2, 0.004f), std::pair(2, 0.1f)})
+    struct Case
+    {
+        int kind;
+        float apart; // m
+    };
+    for (const auto& test : {Case{0, 0.004f}, Case{1, 0.1f}, Case{2, 0.004f}, Case{2, 0.1f}})
     {
         const uint32_t substeps = budget_in_turn(run++);
-        CAPTURE(kind);
-        CAPTURE(apart);
+        CAPTURE(test.kind);
+        CAPTURE(test.apart);
         CAPTURE(substeps);
         PairHarness harness;
-        if (kind == 0)
+        if (test.kind == 0)
             take(harness.solver.add_collider(voile::PlaneCollider{.normal = {1, 0, 0}, .offset = 0}));
-        else if (kind == 1)
+        else if (test.kind == 1)
             take(harness.solver.add_collider(voile::BoxCollider{.min = {-0.1f, -3, -1}, .max = {0, 1, 1}}));
         else
             take(harness.solver.add_collider(tests::collider(wall)));
@@ -108,7 +112,7 @@ TEST_CASE("two sheets beside a wall of a plane, a box or a mesh fall freely, wit
         {
             voile::GridCloth grid = airless_pair_sheet(9, 0.02f, {0, 0, 0});
             const float thickness = tests::fabric_of(grid).thickness;
-            grid.transform = at({thickness * (1 + 1.05f * layer) + apart, 0, 0}) * upright;
+            grid.transform = at({thickness * (1 + 1.05f * layer) + test.apart, 0, 0}) * upright;
             harness.add(grid);
         }
         harness.upload();
