@@ -102,7 +102,7 @@ void check_distant_colliders(bool self_collision, uint32_t pushed)
                 REQUIRE(scene->solver.reset(cloth));
                 REQUIRE(scene->solver.set_velocity(cloth, {0.1f * shot.speed, -shot.speed, 0}));
             }
-        for (int frame = 0; frame < 4; ++frame)
+        for (int frame = 0; frame < 6; ++frame)
         {
             alone.run(shot, frame);
             many.run(shot, frame);

@@ -297,10 +297,13 @@ void add_load(uint vertex, float weight)
 // pass rounds another direction, so that sides which are pressed together would come nearer in each. `own`: as in heights_of.
 float tilt_of(uvec2 own, Vertices vertices)
 {
-    float longest = 0;
+    float squared_length = 0;
     for (uint k = own.x; k < own.y; ++k)
-        longest = max(longest, distance(vertices.x[k], vertices.x[own.x]));
-    return 2 * k_direction_rounding * longest + k_least_half;
+    {
+        const vec3 d = vertices.x[k] - vertices.x[own.x];
+        squared_length = max(squared_length, dot(d, d));
+    }
+    return 2 * k_direction_rounding * sqrt(squared_length) + k_least_half;
 }
 
 // How far the vertices of the own side may approach, `slack` for all, and how far the clock carries the planes
