@@ -250,3 +250,29 @@ TEST_CASE("edges that start nearer than the rounding of their normal do not pass
         CHECK(harness.intersections() == 0);
     }
 }
+
+TEST_CASE("an anchor that moves and holds no cloth changes no bit")
+{
+    const auto run = [](bool moves)
+    {
+        PairHarness harness;
+        for (const float height : {0.01f, 0.03f})
+        {
+            voile::GridCloth sheet = tests::pair_sheet(6, 6, 0.02f);
+            sheet.transform = at({height, height, 0});
+            sheet.velocity = {0, -1, 0};
+            harness.add(sheet);
+        }
+        take(harness.solver.add_collider(voile::PlaneCollider{}));
+        const voile::AnchorId anchor = take(harness.solver.add_anchor(glm::mat4(1)));
+        harness.upload();
+        for (int i = 1; i <= 10; ++i)
+        {
+            if (moves)
+                take(harness.solver.move_anchor(anchor, at({0.1f * static_cast<float>(i), 0, 0})));
+            harness.step({.duration = 1.f / 60});
+        }
+        return harness.positions(harness.cloths[1]);
+    };
+    CHECK(tests::same_bits(run(false), run(true)));
+}

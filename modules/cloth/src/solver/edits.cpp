@@ -180,6 +180,25 @@ float displacement_bound(const glm::mat4& from, const glm::mat4& to, const glm::
     return static_cast<float>(glm::length(glm::dvec3(change * glm::dvec4(center, 1))) + std::sqrt(squares) * radius);
 }
 
+// m, of the anchors that hold a cloth.
+float farthest_anchor_motion(const Model& model)
+{
+    float farthest = 0;
+    const Anchor* last = nullptr; // most cloths hang from few anchors
+    for (const auto [index, cloth] : model.cloths)
+        for (const Attachment& attachment : cloth.attachments)
+        {
+            const Anchor* anchor =
+                cloth.enabled && attachment.anchor ? model.anchors.find(*attachment.anchor) : nullptr;
+            if (anchor == last || anchor == nullptr)
+                continue;
+            last = anchor;
+            if (anchor->from != anchor->to)
+                farthest = std::max(farthest, displacement_bound(anchor->from, anchor->to, glm::dvec3(0), 1));
+        }
+    return farthest;
+}
+
 Moved find_moved(const Solver::State& solver)
 {
     Moved moved;
@@ -293,9 +312,7 @@ float farthest_motion(const Solver::State& solver)
 {
     if (!solver.passes.features && !solver.passes.pairs)
         return 0; // nothing asks for it
-    float farthest = 0;
-    for (const auto [index, anchor] : solver.model.anchors)
-        farthest = std::max(farthest, displacement_bound(anchor.from, anchor.to, glm::dvec3(0), 1));
+    float farthest = find_moved(solver).anchors ? farthest_anchor_motion(solver.model) : 0;
     for (const auto [index, collider] : solver.collider_models.colliders)
     {
         const shared::ColliderRecord& record = collider.record;

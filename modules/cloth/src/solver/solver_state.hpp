@@ -234,7 +234,7 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
 // Writes the list of patches. Between barriers of the caller's.
 void record_patches(gpu::Recorder& recorder, Solver::State& solver);
 
-// m: how far colliders and anchors move in the next step. Anchors, and colliders without a box, count with the points
+// m: how far colliders, and anchors that hold a cloth, move in the next step. Anchors, and colliders without a box, count with the points
 // within a meter of their origin; vertices that lie on the GPU do not count. 0 without features and pairs.
 float farthest_motion(const Solver::State& solver);
 
