@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // Finds where cloths that collide with themselves intersect when a step starts, and directions out of it.
 //
 // The lines of intersection are to become shorter (Volino and Magnenat-Thalmann 2006, "Resolving surface collisions
@@ -125,7 +126,7 @@ vec3 shortening_direction(vec3 p, vec3 q, vec3 c, vec3 n)
 void add(uint vertex, vec3 direction)
 {
     const ivec3 words = ivec3(roundEven(direction / VOILE_TANGLE_UNIT));
-    for (uint k = 0; k < 3; ++k)
+    [[unroll]] for (uint k = 0; k < 3; ++k)
         atomicAdd(tangles[vertex].direction[k], words[k]);
     atomicAdd(tangles[vertex].pairs, 1);
 }
@@ -154,7 +155,7 @@ void take_pair(inout Found found, ClothTriangle own, uint i, ClothTriangle other
     const vec3 weights = nearest_weights(a - point, other.corners[1] - point, other.corners[2] - point);
     add(ends.x, (1 - at) * direction);
     add(ends.y, at * direction);
-    for (uint k = 0; k < 3; ++k)
+    [[unroll]] for (uint k = 0; k < 3; ++k)
         add(other.vertices[k], -weights[k] * direction);
 }
 
