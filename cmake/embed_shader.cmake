@@ -8,10 +8,10 @@ namespace ${NAMESPACE}
 {
 namespace
 {
-constexpr uint32_t k_words[] = {
+constexpr uint32_t ${SYMBOL}_words[] = {
 ${words}};
 }
 extern const std::span<const uint32_t> ${SYMBOL};
-const std::span<const uint32_t> ${SYMBOL}{k_words};
+const std::span<const uint32_t> ${SYMBOL}{${SYMBOL}_words};
 }
 ")

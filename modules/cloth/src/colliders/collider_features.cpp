@@ -14,18 +14,16 @@ namespace voile
 namespace
 {
 
-using shared::Feature;
-
 // Whether a chord between two vertices on something round of this radius sinks towards it by more than is allowed.
 bool is_thin(float radius, const FeatureScale& scale)
 {
     return 8 * k_allowed_fraction * scale.thickness * radius < scale.edge * scale.edge;
 }
 
-std::vector<Feature> box_features(const shared::ColliderRecord& record)
+std::vector<shared::Feature> box_features(const shared::ColliderRecord& record)
 {
     const glm::vec3 half(record.shape);
-    std::vector<Feature> features; // their depths along the diagonals
+    std::vector<shared::Feature> features; // their depths along the diagonals
     for (int corner = 0; corner < 8; ++corner)
     {
         const glm::vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
@@ -48,12 +46,12 @@ std::vector<Feature> box_features(const shared::ColliderRecord& record)
 }
 
 // Pushes in all directions.
-Feature round_feature(const glm::vec3& a, const glm::vec3& b, float radius)
+shared::Feature round_feature(const glm::vec3& a, const glm::vec3& b, float radius)
 {
     return {a, radius, b, -1, glm::vec3(0, 1, 0), 0};
 }
 
-std::vector<Feature> features_of(const ColliderModel& collider, const FeatureScale& scale)
+std::vector<shared::Feature> features_of(const ColliderModel& collider, const FeatureScale& scale)
 {
     const shared::ColliderRecord& record = collider.record;
     if (scale.edge == 0)
@@ -66,7 +64,7 @@ std::vector<Feature> features_of(const ColliderModel& collider, const FeatureSca
     {
         if (!collider.hierarchy)
             return {};
-        std::vector<Feature> features = mesh_features(*collider.hierarchy, record.flags, scale);
+        std::vector<shared::Feature> features = mesh_features(*collider.hierarchy, record.flags, scale);
         if ((record.flags & VOILE_COLLIDER_CLOSED) != 0)
             find_depths(*collider.hierarchy, scale.edge, features);
         return features;
@@ -121,13 +119,13 @@ ColliderFeatures make_features(const ColliderModel& collider, const FeatureScale
         result.set.features = static_cast<uint32_t>(result.deforming.sources.size());
         return result;
     }
-    const std::vector<Feature> features = features_of(collider, scale);
+    const std::vector<shared::Feature> features = features_of(collider, scale);
     if (features.empty())
         return result;
     result.set.features = static_cast<uint32_t>(features.size());
     std::vector<glm::vec3> corners; // of triangles that have the boxes of the features
     std::vector<glm::uvec3> triangles;
-    for (const Feature& feature : features)
+    for (const shared::Feature& feature : features)
     {
         const auto first = static_cast<uint32_t>(corners.size());
         corners.push_back(glm::min(feature.a, feature.b) - feature.radius);

@@ -12,7 +12,7 @@ namespace voile
 namespace
 {
 
-constexpr size_t k_piece = 256; // features
+constexpr size_t k_depth_piece = 256; // features
 
 // m, at most `limit`: from a point of the feature to the other side, straight ahead and obliquely.
 float extent_behind(const Bvh& hierarchy, const shared::Feature& feature, const glm::vec3& point, float limit)
@@ -45,7 +45,7 @@ void find_depths(const Bvh& hierarchy, float longest, std::span<shared::Feature>
                 extent = extent_behind(hierarchy, feature, glm::mix(feature.a, feature.b, part), extent);
         return extent / 2;
     };
-    parallel_for(features.size(), k_piece,
+    parallel_for(features.size(), k_depth_piece,
                  [&](size_t first, size_t last)
                  {
                      for (size_t i = first; i < last; ++i)

@@ -25,8 +25,6 @@ namespace voile
 namespace
 {
 
-using shared::Feature;
-
 constexpr float k_flat = 0.035f; // rad; an edge that turns by less is no feature
 constexpr float k_any_sag = std::numeric_limits<float>::infinity();
 
@@ -59,7 +57,7 @@ public:
     {
     }
 
-    std::vector<Feature> run()
+    std::vector<shared::Feature> run()
     {
         select_triangles();
         if (chosen_.empty())
@@ -189,7 +187,7 @@ private:
                std::max(std::tan(std::min(turn / 2, k_steepest)) / 2, std::tan(std::min(spread, k_steepest)) / 4);
     }
 
-    void keep_edge(const Side& side, const Feature& edge, float sag)
+    void keep_edge(const Side& side, const shared::Feature& edge, float sag)
     {
         for (const uint32_t v : {side.low, side.high})
         {
@@ -250,12 +248,12 @@ private:
     std::vector<uint32_t> vertices_;   // and the first one at the same position
     std::vector<Side> sides_;
     std::vector<Corner> corners_; // of the positions; those that are not the first at theirs are empty
-    std::vector<Feature> features_;
+    std::vector<shared::Feature> features_;
 };
 
 } // namespace
 
-std::vector<Feature> mesh_features(const Bvh& hierarchy, uint32_t flags, const FeatureScale& scale)
+std::vector<shared::Feature> mesh_features(const Bvh& hierarchy, uint32_t flags, const FeatureScale& scale)
 {
     return MeshFeatures({hierarchy.nodes, hierarchy.triangles}, flags, scale).run();
 }

@@ -16,7 +16,7 @@ namespace voile
 namespace
 {
 
-constexpr size_t k_piece = 16384; // vertices or triangles per piece of work
+constexpr size_t k_closedness_piece = 16384; // vertices or triangles per piece of work
 
 uint64_t hash(const glm::vec3& p)
 {
@@ -90,7 +90,7 @@ bool is_closed(std::span<const uint32_t> welded, std::span<const glm::uvec3> tri
                   [&](uint32_t low, uint32_t high, bool upwards)
                   { (upwards ? up[next_up[low]++] : down[next_down[low]++]) = high; });
     std::atomic<bool> result = true;
-    parallel_for(welded.size(), k_piece,
+    parallel_for(welded.size(), k_closedness_piece,
                  [&](size_t begin, size_t end)
                  {
                      for (size_t v = begin; v < end && result; ++v)

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr uint32_t k_none = std::numeric_limits<uint32_t>::max();
-constexpr size_t k_piece = 16384; // triangles per piece of work
+constexpr size_t k_part_piece = 16384; // triangles per piece of work
 
 // For each vertex, the lowest one of its part. A vertex leads to a lower one, so that a chain ends.
 std::vector<uint32_t> lowest_vertices(std::span<const uint32_t> welded, std::span<const glm::uvec3> triangles)
@@ -46,14 +46,14 @@ double volume_under(std::span<const glm::vec3> positions, const glm::uvec3& t)
 
 double volume_of(std::span<const glm::vec3> positions, std::span<const glm::uvec3> triangles)
 {
-    std::vector<double> sums(triangles.size() / k_piece + 1); // in an order that does not depend on the threads
-    parallel_for(triangles.size(), k_piece,
+    std::vector<double> sums(triangles.size() / k_part_piece + 1); // in an order that does not depend on the threads
+    parallel_for(triangles.size(), k_part_piece,
                  [&](size_t begin, size_t end)
                  {
                      double sum = 0;
                      for (size_t t = begin; t < end; ++t)
                          sum += volume_under(positions, triangles[t]);
-                     sums[begin / k_piece] = sum;
+                     sums[begin / k_part_piece] = sum;
                  });
     return std::accumulate(sums.begin(), sums.end(), 0.0);
 }

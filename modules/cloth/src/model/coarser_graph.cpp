@@ -18,8 +18,8 @@ namespace voile
 namespace
 {
 
-constexpr size_t k_least_owned = 1024; // vertices per thread
-constexpr uint32_t k_most_links = 12;  // of a vertex on a level but the first, and those that others have to it
+constexpr size_t k_least_coarse_vertices = 1024; // vertices per thread
+constexpr uint32_t k_most_links = 12; // of a vertex on a level but the first, and those that others have to it
 constexpr uint32_t k_most_parents = 6;
 constexpr uint32_t k_hops = 3; // of the paths to neighbors on the next level, and to parents
 // Around a vertex that stays on the next level, others within this part of the mean length of its links leave: of the
@@ -185,7 +185,7 @@ void add_neighbors(std::vector<Pair>& pairs, uint32_t vertex, std::span<const Li
 template <typename Out, typename Body>
 std::vector<Out> for_each_vertex(const LimitGraph& level, const Body& body)
 {
-    const size_t piece = piece_per_thread(level.vertices.size(), k_least_owned);
+    const size_t piece = piece_per_thread(level.vertices.size(), k_least_coarse_vertices);
     std::vector<std::vector<Out>> pieces((level.vertices.size() + piece - 1) / piece);
     parallel_for(level.vertices.size(), piece,
                  [&](size_t begin, size_t end)

@@ -15,9 +15,9 @@ namespace
 {
 
 // Of the coordinates' triangle: below it rounding decides where the fabric runs.
-constexpr double k_least_area = 1e-6;  // times the longest side squared
-constexpr size_t k_piece = 8192;       // triangles per piece of work
-constexpr size_t k_least_owned = 2048; // vertices per thread
+constexpr double k_least_area = 1e-6;              // times the longest side squared
+constexpr size_t k_membrane_piece = 8192;          // triangles per piece of work
+constexpr size_t k_least_membrane_vertices = 2048; // vertices per thread
 
 // The direction in the triangle along which the first coordinate alone grows; 0 where the coordinates have no area.
 glm::dvec3 growing(const glm::dvec3 (&x)[3], std::span<const glm::vec2> coordinates, const glm::uvec3& t)
@@ -114,7 +114,7 @@ std::vector<double> membrane_rates(std::span<const MembraneTriangle> triangles, 
     const size_t kinds = constants.size();
     std::vector<double> sums(areas.size() * kinds);
     // Each thread goes through all triangles and owns a range of vertices.
-    parallel_for(areas.size(), piece_per_thread(areas.size(), k_least_owned),
+    parallel_for(areas.size(), piece_per_thread(areas.size(), k_least_membrane_vertices),
                  [&](size_t begin, size_t end)
                  {
                      for (const MembraneTriangle& t : triangles)
@@ -151,10 +151,10 @@ std::vector<double> membrane_rates(std::span<const MembraneTriangle> triangles, 
         }
         return largest;
     };
-    std::vector<std::vector<double>> pieces((triangles.size() + k_piece - 1) / k_piece);
-    parallel_for(triangles.size(), k_piece,
+    std::vector<std::vector<double>> pieces((triangles.size() + k_membrane_piece - 1) / k_membrane_piece);
+    parallel_for(triangles.size(), k_membrane_piece,
                  [&](size_t begin, size_t end)
-                 { pieces[begin / k_piece] = largest_of(triangles.subspan(begin, end - begin)); });
+                 { pieces[begin / k_membrane_piece] = largest_of(triangles.subspan(begin, end - begin)); });
     std::vector<double> largest(kinds);
     for (const std::vector<double>& piece : pieces)
         for (size_t kind = 0; kind < kinds; ++kind)

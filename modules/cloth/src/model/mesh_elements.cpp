@@ -24,7 +24,7 @@ constexpr size_t k_fewest = 3;
 constexpr double k_ahead = 8;
 constexpr double k_bending_ahead = 64;
 
-constexpr size_t k_piece = 8192; // elements or vertices per piece of work
+constexpr size_t k_element_piece = 8192; // elements or vertices per piece of work
 
 // Cotangent of the angle at `at` between the ways to p and q.
 double cotangent(const glm::dvec3& at, const glm::dvec3& p, const glm::dvec3& q)
@@ -76,7 +76,7 @@ SidesOfVertices sides_of_vertices(size_t vertices, std::span<const glm::uvec3> t
     counts_to_offsets(result.first);
     std::vector<uint32_t> next = result.first;
     visit([&](uint32_t a, uint32_t b, uint32_t side) { result.sides[next[a]++] = uint64_t{b} << 32 | side; });
-    parallel_for(vertices, k_piece,
+    parallel_for(vertices, k_element_piece,
                  [&](size_t begin, size_t end)
                  {
                      for (size_t v = begin; v < end; ++v)
@@ -142,7 +142,7 @@ FirstElements count_elements(const SidesOfVertices& sides, const SolidTriangles&
 {
     const size_t vertices = sides.first.size() - 1;
     FirstElements first{std::vector<size_t>(vertices + 1), std::vector<size_t>(vertices + 1)};
-    parallel_for(vertices, k_piece,
+    parallel_for(vertices, k_element_piece,
                  [&](size_t begin, size_t end)
                  {
                      for (size_t a = begin; a < end; ++a)
@@ -282,7 +282,7 @@ template <typename Element, typename Rate>
 std::vector<size_t> soften_stiffest(UninitializedArray<Element>& elements, double ahead, const Rate& rate)
 {
     UninitializedArray<double> rates(elements.size());
-    parallel_for(elements.size(), k_piece,
+    parallel_for(elements.size(), k_element_piece,
                  [&](size_t begin, size_t end)
                  {
                      for (size_t i = begin; i < end; ++i)
@@ -308,7 +308,7 @@ MeshElements make_elements(std::span<const glm::dvec3> positions, const SolidTri
     if (fabric)
     {
         elements.triangles = UninitializedArray<MembraneTriangle>(triangles.corners.size());
-        parallel_for(triangles.corners.size(), k_piece,
+        parallel_for(triangles.corners.size(), k_element_piece,
                      [&](size_t begin, size_t end)
                      {
                          for (size_t i = begin; i < end; ++i)
@@ -320,8 +320,8 @@ MeshElements make_elements(std::span<const glm::dvec3> positions, const SolidTri
     elements.edges = UninitializedArray<Edge>(first.edges.back());
     elements.opposites = UninitializedArray<OppositeSpring>(first.hinges.back());
     elements.hinges = UninitializedArray<Hinge>(first.hinges.back());
-    std::vector<MeshReport> reports((positions.size() + k_piece - 1) / k_piece);
-    parallel_for(positions.size(), k_piece,
+    std::vector<MeshReport> reports((positions.size() + k_element_piece - 1) / k_element_piece);
+    parallel_for(positions.size(), k_element_piece,
                  [&](size_t begin, size_t end)
                  {
                      ElementFiller filler(positions, triangles, elements, first.edges[begin], first.hinges[begin]);
@@ -330,7 +330,7 @@ MeshElements make_elements(std::span<const glm::dvec3> positions, const SolidTri
                                        [&](uint32_t b, std::span<const uint64_t> of_edge) {
                                            filler.add({static_cast<uint32_t>(a), b}, of_edge);
                                        });
-                     reports[begin / k_piece] = filler.report();
+                     reports[begin / k_element_piece] = filler.report();
                  });
     report.shortest_edge = std::numeric_limits<float>::max();
     for (const MeshReport& part : reports)

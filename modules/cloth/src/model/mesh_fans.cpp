@@ -18,7 +18,7 @@ namespace
 using shared::MeshCorner;
 using shared::MeshWedge;
 
-constexpr size_t k_piece = 4096; // vertices
+constexpr size_t k_fan_piece = 4096; // vertices
 
 // The fan of one vertex.
 class Fan
@@ -86,15 +86,15 @@ SharedArray<T> joined(const std::vector<std::vector<T>>& pieces)
 MeshFans make_mesh_fans(const MeshLists& lists)
 {
     const size_t count = lists.vertices.size();
-    const size_t pieces = (count + k_piece - 1) / k_piece;
+    const size_t pieces = (count + k_fan_piece - 1) / k_fan_piece;
     std::vector<shared::MeshFan> vertices(count);
     std::vector<std::vector<MeshWedge>> wedges(pieces);
     std::vector<std::vector<uint32_t>> owners(pieces);
-    parallel_for(count, k_piece,
+    parallel_for(count, k_fan_piece,
                  [&](size_t begin, size_t end)
                  {
-                     std::vector<MeshWedge>& own_wedges = wedges[begin / k_piece];
-                     std::vector<uint32_t>& own_owners = owners[begin / k_piece];
+                     std::vector<MeshWedge>& own_wedges = wedges[begin / k_fan_piece];
+                     std::vector<uint32_t>& own_owners = owners[begin / k_fan_piece];
                      for (size_t i = begin; i < end; ++i)
                      {
                          const Fan fan(lists, static_cast<uint32_t>(i));

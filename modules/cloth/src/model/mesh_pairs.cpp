@@ -16,7 +16,7 @@ namespace
 {
 
 constexpr size_t k_least_vertices = 2048; // per thread
-constexpr size_t k_piece = 8192;          // triangles per piece of work
+constexpr size_t k_pair_piece = 8192;     // triangles per piece of work
 
 // The side of a hinge that a triangle is on.
 int side_of(const Hinge& hinge, uint32_t triangle)
@@ -45,7 +45,7 @@ public:
         for (uint32_t i = 0; i < hinges.size(); ++i)
             for (const uint32_t triangle : hinges[i].triangle)
                 indices_[next[triangle]++] = i;
-        parallel_for(triangles, k_piece,
+        parallel_for(triangles, k_pair_piece,
                      [&](size_t begin, size_t end)
                      {
                          for (size_t t = begin; t < end; ++t)

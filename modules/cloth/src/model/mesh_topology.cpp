@@ -16,13 +16,13 @@ namespace voile
 namespace
 {
 
-constexpr size_t k_piece = 8192;       // triangles or vertices per piece of work
-constexpr size_t k_least_owned = 2048; // vertices per thread, where threads go through all triangles or pairs
+constexpr size_t k_topology_piece = 8192; // triangles or vertices per piece of work
+constexpr size_t k_least_owned = 2048;    // vertices per thread, where threads go through all triangles or pairs
 
 SolidTriangles solid_triangles(std::span<const glm::dvec3> positions, std::span<const glm::uvec3> triangles)
 {
     SolidTriangles solid{std::vector(triangles.begin(), triangles.end()), std::vector<double>(triangles.size())};
-    parallel_for(triangles.size(), k_piece,
+    parallel_for(triangles.size(), k_topology_piece,
                  [&](size_t begin, size_t end)
                  {
                      for (size_t i = begin; i < end; ++i)
@@ -234,7 +234,7 @@ void find_bounds(MeshTopology& mesh)
         }
     };
     std::vector<Sums> sums(vertices.size());
-    parallel_for(vertices.size(), k_piece,
+    parallel_for(vertices.size(), k_topology_piece,
                  [&](size_t begin, size_t end)
                  {
                      for (size_t i = begin; i < end; ++i)
@@ -253,11 +253,11 @@ void find_bounds(MeshTopology& mesh)
         MeshTopology::Bounds fabric;
         MeshTopology::Bounds uniform;
     };
-    std::vector<Bounds> pieces((vertices.size() + k_piece - 1) / k_piece);
-    parallel_for(vertices.size(), k_piece,
+    std::vector<Bounds> pieces((vertices.size() + k_topology_piece - 1) / k_topology_piece);
+    parallel_for(vertices.size(), k_topology_piece,
                  [&](size_t begin, size_t end)
                  {
-                     Bounds& bounds = pieces[begin / k_piece];
+                     Bounds& bounds = pieces[begin / k_topology_piece];
                      double* const uniform[] = {&bounds.uniform.edge, &bounds.uniform.opposite};
                      for (size_t i = begin; i < end; ++i)
                      {

@@ -13,10 +13,6 @@ namespace voile
 namespace
 {
 
-constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
-constexpr VkAccessFlags2KHR k_storage =
-    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
-
 template <typename T>
 std::span<const std::byte> bytes_of(const std::vector<T>& values)
 {

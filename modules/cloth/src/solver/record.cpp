@@ -15,10 +15,6 @@ namespace voile
 namespace
 {
 
-constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
-constexpr VkAccessFlags2KHR k_storage =
-    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
-
 // The number of a step's first substep. Before a number repeats, everything that stores numbers of substeps is cleared.
 uint32_t count_substeps(gpu::Recorder& recorder, const Solver::State& solver, StepHistory& history, uint32_t substeps)
 {

@@ -22,6 +22,11 @@
 namespace voile
 {
 
+// Where passes read and write buffers.
+inline constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
+inline constexpr VkAccessFlags2KHR k_storage =
+    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
+
 // Changes by the host since the last record; the next one records them at its beginning. Changes of cloths and
 // colliders that are not uploaded yet wait for their upload.
 struct Edits
@@ -234,8 +239,9 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
 // Writes the list of patches. Between barriers of the caller's.
 void record_patches(gpu::Recorder& recorder, Solver::State& solver);
 
-// m: how far colliders, and anchors that hold a cloth, move in the next step. Anchors, and colliders without a box, count with the points
-// within a meter of their origin; vertices that lie on the GPU do not count. 0 without features and pairs.
+// m: how far colliders, and anchors that hold a cloth, move in the next step. Anchors, and colliders without a box,
+// count with the points within a meter of their origin; vertices that lie on the GPU do not count. 0 without features
+// and pairs.
 float farthest_motion(const Solver::State& solver);
 
 // Records the edits that wait, and moves pins and anchors on. Begins and ends in the scope of compute and transfers.

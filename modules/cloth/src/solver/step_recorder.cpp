@@ -81,7 +81,6 @@ void StepRecorder::record_strain_limit()
 
 void StepRecorder::keep_state(const StateBuffers& kept, bool velocities)
 {
-    constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
     constexpr VkPipelineStageFlags2KHR k_copy = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     const auto copy = [&](buffer::Name from, buffer::Name to, VkDeviceSize bytes_per_vertex)
     {

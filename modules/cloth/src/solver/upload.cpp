@@ -244,9 +244,6 @@ void mark_uploaded(Solver::State& solver)
 }
 
 constexpr VkAccessFlags2KHR k_copy_accesses = VK_ACCESS_2_TRANSFER_READ_BIT_KHR | VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR;
-constexpr VkAccessFlags2KHR k_storage =
-    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
-
 // Copies the former contents, then what is new: both may go into the same buffer.
 void record_copies(gpu::Recorder& recorder, const Solver::State& solver, std::span<const GrowthCopy> grown,
                    const Staging& staging, VkBuffer staged)
@@ -267,7 +264,6 @@ void record_copies(gpu::Recorder& recorder, const Solver::State& solver, std::sp
 // New memory may have anything: what another solver remembered had the same numbers of passes.
 void clear_memories(gpu::Recorder& recorder, const DeviceState& device)
 {
-    constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
     constexpr VkPipelineStageFlags2KHR k_transfer = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT_KHR;
     recorder.barrier(k_compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR, k_transfer,
                      VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR);
