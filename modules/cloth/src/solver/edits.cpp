@@ -198,8 +198,7 @@ float farthest_anchor_motion(const Model& model)
 Moved find_moved(const Solver::State& solver)
 {
     Moved moved;
-    for (const auto [index, anchor] : solver.model.anchors)
-        moved.anchors |= anchor.jumped || anchor.from != anchor.to;
+    moved.anchors = anchors_move(solver.model);
     for (const auto [index, collider] : solver.collider_models.colliders)
         moved.colliders |= collider.pose.jumped || collider.pose.from != collider.pose.to ||
                            (collider.uploaded && collider.deforming && collider.deforming->due);
@@ -304,11 +303,19 @@ void record_patches(gpu::Recorder& recorder, Solver::State& solver)
     solver.edits.patches = false;
 }
 
+bool anchors_move(const Model& model)
+{
+    for (const auto [index, anchor] : model.anchors)
+        if (anchor.jumped || anchor.from != anchor.to)
+            return true;
+    return false;
+}
+
 float farthest_motion(const Solver::State& solver)
 {
     if (!solver.passes.features && !solver.passes.pairs)
         return 0; // nothing asks for it
-    float farthest = find_moved(solver).anchors ? farthest_anchor_motion(solver.model) : 0;
+    float farthest = anchors_move(solver.model) ? farthest_anchor_motion(solver.model) : 0;
     for (const auto [index, collider] : solver.collider_models.colliders)
     {
         const shared::ColliderRecord& record = collider.record;

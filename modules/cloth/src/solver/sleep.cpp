@@ -28,14 +28,6 @@ bool uses_moved_anchor(const Model& model, const ClothModel& cloth)
     return std::ranges::any_of(cloth.attachments, moves);
 }
 
-bool anchors_move(const Model& model)
-{
-    for (const auto [index, anchor] : model.anchors)
-        if (anchor.jumped || anchor.from != anchor.to)
-            return true;
-    return false;
-}
-
 bool colliders_move(const Solver::State& solver)
 {
     for (const auto [index, collider] : solver.collider_models.colliders)

@@ -97,7 +97,8 @@ struct Replaced
 struct StepHistory
 {
     bool normals_due = false;        // they do not fit the positions: after an upload, and after cloths were moved
-    bool depenetration_due = false;  // vertices may be inside solids: after uploads, edits and snapshots
+    bool depenetration_due = false;  // vertices may be inside solids, and cloth in cloth: after uploads, edits and
+                                     // snapshots
     uint32_t depenetration_step = 0; // counts the steps with depenetration
     uint32_t next_substep = 0;       // counted through all steps, below k_substeps_counted
     uint32_t next_pair_pass = 2;     // counted through all steps
@@ -238,6 +239,9 @@ void forget_candidates(gpu::Recorder& recorder, const DeviceState& device);
 
 // Writes the list of patches. Between barriers of the caller's.
 void record_patches(gpu::Recorder& recorder, Solver::State& solver);
+
+// Whether any anchor moves in the next step, or was teleported.
+bool anchors_move(const Model& model);
 
 // m: how far colliders, and anchors that hold a cloth, move in the next step. Anchors, and colliders without a box,
 // count with the points within a meter of their origin; vertices that lie on the GPU do not count. 0 without features
