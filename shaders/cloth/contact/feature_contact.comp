@@ -30,6 +30,7 @@
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
 layout(constant_id = k_constant_colliders_move) const uint COLLIDERS_MOVE = 1;
+layout(constant_id = k_constant_feature_part) const uint FEATURE_PART = VOILE_FEATURES_ALL;
 
 layout(VOILE_BINDING(cloths)) readonly buffer Cloths { ClothRecord cloths[]; };
 layout(VOILE_BINDING(patches)) readonly buffer Patches { Patch patches[]; };
@@ -37,6 +38,7 @@ layout(VOILE_BINDING(proposed_positions)) readonly buffer ProposedPositions { ve
 layout(VOILE_BINDING(proposed_velocities)) readonly buffer ProposedVelocities { vec4 proposed_velocities[]; };
 layout(VOILE_BINDING(feature_corrections)) writeonly buffer FeatureCorrections { FeatureCorrection corrections[]; };
 layout(VOILE_BINDING(feature_guards)) writeonly buffer FeatureGuards { FeatureGuard feature_guards[]; };
+layout(VOILE_BINDING(feature_dispatch)) readonly buffer FeatureDispatch { uint dispatch_size[]; };
 layout(VOILE_BINDING(feature_patches)) readonly buffer FeaturePatches { uint near_patches[]; };
 layout(VOILE_BINDING(mesh_vertices)) readonly buffer MeshVertices { MeshVertex mesh_vertices[]; };
 layout(VOILE_BINDING(mesh_corners)) readonly buffer MeshCorners { MeshCorner mesh_corners[]; };
@@ -259,6 +261,15 @@ void clear_touched()
     cells[self.vertex.index].touched[1 - (push.pass & 1)] = uvec4(0);
 }
 
+// False: the items of the vertex do not suffice.
+bool answer_items()
+{
+    if (FEATURE_PART == VOILE_FEATURES_TRAVERSED)
+        return load_items().valid;
+    clear_touched();
+    return merge_cells();
+}
+
 // The contacts of the vertex that the threads of its lanes traverse for, in the first of them. All threads of the workgroup
 // call it.
 void merge_responses(uint part, bool exists)
@@ -319,18 +330,20 @@ void traverse(uint patch_index, uint index)
 void main()
 {
     const uint thread = gl_LocalInvocationID.x;
+    // Without items until the next query, each pass traverses in all patches.
+    if (FEATURE_PART == VOILE_FEATURES_TRAVERSED &&
+        gl_WorkGroupID.x >= dispatch_size[push.dispatch_word + VOILE_DISPATCH_PATCHES])
+        return;
     if (thread == 0)
         traversing_count = 0;
     barrier();
     const uint patch_index = near_patches[push.first_patch + gl_WorkGroupID.x];
     self.vertex = patch_vertex(patch_index, thread);
     clear_guard();
-    if (self.vertex.exists)
-    {
-        clear_touched();
-        if (!merge_cells())
-            traversing[atomicAdd(traversing_count, 1)] = thread;
-    }
+    if (self.vertex.exists && !answer_items())
+        traversing[atomicAdd(traversing_count, 1)] = thread;
+    if (FEATURE_PART == VOILE_FEATURES_LISTED)
+        return;
     barrier();
     for (uint first = 0; first < traversing_count; first += gl_WorkGroupSize.x / push.lanes)
         traverse(patch_index, first + thread / push.lanes);

@@ -85,11 +85,11 @@ bool find_in_cell(PatchVertex self, uint i, out uint vertex)
         vertex = neighbor(self.index, k_cell[i], self.columns);
         return in_grid(self.column_row + k_cell[i], self.columns, self.rows);
     }
-    uint other;
-    if (i > 0 && i % 2 == 1)
-        find_corner(self, (i - 1) / 2, vertex, other);
-    else if (i > 0)
-        find_corner(self, (i - 1) / 2, other, vertex);
+    if (i > 0)
+    {
+        const MeshCorner corner = mesh_corner(self, (i - 1) / 2);
+        vertex = self.index - self.local + (i % 2 == 1 ? corner.b : corner.c);
+    }
     return true;
 }
 

@@ -3,11 +3,13 @@
 // Each thread has counted its items within every margin. The workgroup adds them up per vertex, chooses the widest margin
 // with few enough, and claims room for all of its vertices at once.
 //
-// The including kernel declares cells[], dispatch_size[] and push (NearFeaturesPush), and defines FeatureSearch, k_margins
-// and k_fractions before, and scratch[] with k_margins elements per thread at least. It sets items_of_group, fewer_items,
-// fewest_items and first_of_group to 0.
+// The including kernel declares cells[], dispatch_size[], traversals[] and push (NearFeaturesPush), and defines
+// FeatureSearch, k_margins and k_fractions before, and scratch[] with k_margins elements per thread at least. It sets
+// items_of_group, fewer_items, fewest_items and first_of_group to 0.
 #ifndef VOILE_FEATURE_ROOM_GLSL
 #define VOILE_FEATURE_ROOM_GLSL
+
+#include "contact/traversal_size.glsl"
 
 // Of the workgroup.
 shared uint items_of_group;
@@ -90,9 +92,20 @@ uint count_with(uint in_group, uint most)
     return chosen < k_margins ? scratch[k_margins * in_group + chosen] : 0;
 }
 
+// Vertices without items traverse in all passes until the next query.
+void traverse_always()
+{
+    const uint patches = gl_NumWorkGroups.x / push.lanes;
+    write_traversal(push.traversal_word, 0, patches);
+    write_traversal(push.traversal_word, 1, patches);
+    traversals[push.traversal_word + VOILE_TRAVERSAL_UNLISTED] = patches;
+}
+
 // `fits`: it has all features that are near as items.
 void write_cell(PatchVertex self, uint first, uint count, bool fits)
 {
+    if (self.exists && !fits)
+        traverse_always();
     if (self.exists)
         cells[self.index] = FeatureCell(first, count, fits ? VOILE_NO_SUBSTEP : VOILE_EVERY_SUBSTEP, VOILE_NO_SUBSTEP,
                                         uvec4[2](uvec4(0), uvec4(0)));

@@ -42,6 +42,7 @@ layout(VOILE_BINDING(feature_facings)) readonly buffer FeatureFacings { FeatureF
 layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { vec4 deforming_positions[]; };
 layout(VOILE_BINDING(padded_boxes)) readonly buffer PaddedBoxes { PaddedBox padded_boxes[]; };
 layout(VOILE_BINDING(deforming_reach)) readonly buffer DeformingReach { uint deforming_reach[]; };
+layout(VOILE_BINDING(feature_traversals)) buffer FeatureTraversals { uint traversals[]; };
 layout(VOILE_BINDING(feature_dispatch)) buffer FeatureDispatch { uint dispatch_size[]; };
 layout(VOILE_BINDING(feature_patches)) writeonly buffer FeaturePatches { uint near_patches[]; };
 layout(VOILE_BINDING(feature_centers)) writeonly buffer FeatureCenters { FeatureCenter feature_centers[]; };

@@ -33,6 +33,7 @@ layout(VOILE_BINDING(deforming_positions)) readonly buffer DeformingPositions { 
 layout(VOILE_BINDING(deforming_reach)) readonly buffer DeformingReach { uint deforming_reach[]; };
 layout(VOILE_BINDING(features)) readonly buffer Features { Feature features[]; };
 layout(VOILE_BINDING(feature_dispatch)) readonly buffer FeatureDispatch { uint dispatch_size[]; };
+layout(VOILE_BINDING(feature_traversals)) buffer FeatureTraversals { uint traversals[]; };
 layout(VOILE_BINDING(feature_centers)) readonly buffer FeatureCenters { FeatureCenter feature_centers[]; };
 layout(VOILE_BINDING(feature_items)) readonly buffer FeatureItems { FeatureItem items[]; };
 layout(VOILE_BINDING(feature_cells)) buffer FeatureCells { FeatureCell cells[]; };
@@ -53,6 +54,7 @@ layout(push_constant, std430) uniform Push { FeaturePush push; };
 #include "contact/swept_feature.glsl"
 #include "contact/feature_response.glsl"
 #include "contact/feature_guard.glsl"
+#include "contact/traversal_size.glsl"
 
 // The vertex that an item is of.
 PatchVertex item_vertex(uint cloth, uint index)
@@ -229,8 +231,17 @@ uint count_items()
     return claimed <= push.items ? claimed : dispatch_size[push.dispatch_word + VOILE_DISPATCH_RETRY_CLAIMED];
 }
 
+// A vertex of the cell is farther away than its items know.
+void ask_for_traversal()
+{
+    cells[self.vertex.index].invalid = counted_substep(push.substep);
+    write_traversal(push.traversal_word, push.pass, dispatch_size[push.dispatch_word + VOILE_DISPATCH_PATCHES]);
+}
+
 void main()
 {
+    if (gl_GlobalInvocationID.x == 0) // for the next pass
+        write_traversal(push.traversal_word, push.pass + 1, traversals[push.traversal_word + VOILE_TRAVERSAL_UNLISTED]);
     if (gl_GlobalInvocationID.x >= count_items())
         return;
     const uint index = push.first_item + gl_GlobalInvocationID.x;
@@ -253,7 +264,7 @@ void main()
     if (!any_has_moved(bound, is_guard, k, vertices))
         return;
     if (is_guard)
-        cells[self.vertex.index].invalid = counted_substep(push.substep);
+        ask_for_traversal();
     else
         test_piece(index, kind, k, vertices);
 }

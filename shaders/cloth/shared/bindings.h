@@ -17,7 +17,8 @@
     VOILE_CONSTANT(7, pairs)                                                                                           \
     VOILE_CONSTANT(8, force_threads)                                                                                   \
     VOILE_CONSTANT(9, force_parts)                                                                                     \
-    VOILE_CONSTANT(10, fewer_rounds)
+    VOILE_CONSTANT(10, fewer_rounds)                                                                                   \
+    VOILE_CONSTANT(11, feature_part)
 
 #ifdef __cplusplus
 

@@ -114,6 +114,7 @@ VOILE_SCRATCH_BUFFER(41, feature_corrections, FeatureCorrection, featured_vertic
 VOILE_SCRATCH_BUFFER(86, feature_guards, FeatureGuard, featured_vertices, "where a vertex near features may move in a substep")
 VOILE_SCRATCH_BUFFER(42, feature_patches, uint, patches, "the patches that are near features")
 VOILE_SCRATCH_BUFFER(43, feature_dispatch, uint, VOILE_SUBSTEP_BATCHES * VOILE_FEATURE_DISPATCH_WORDS, "the sizes of the indirect dispatches over feature items, over the patches near features and of a second query for them, with the numbers of items, for each batch of cloths; cleared before they are written")
+VOILE_SCRATCH_BUFFER(105, feature_traversals, uint, VOILE_SUBSTEP_BATCHES * VOILE_TRAVERSAL_WORDS, "on CPU devices: the sizes of the dispatches for vertices whose items do not suffice, for each batch (VOILE_TRAVERSAL_*)")
 VOILE_SCRATCH_BUFFER(79, feature_centers, FeatureCenter, featured_vertices, "the position of a vertex when near features were listed")
 VOILE_SCRATCH_BUFFER(80, feature_cells, FeatureCell, featured_vertices, "per vertex which items are of its pieces")
 VOILE_SCRATCH_BUFFER(81, feature_items, FeatureItem, feature_items, "features near pieces of cloth; levels of substeps have parts in proportion to their patches")

@@ -33,6 +33,16 @@
 #define VOILE_DISPATCH_RETRY 8
 #define VOILE_DISPATCH_RETRY_CLAIMED 11
 #define VOILE_DISPATCH_FEWEST 12
+// Of a batch: the sizes of the dispatches for vertices whose items do not suffice, in even and in odd passes, and the
+// number of patches if vertices have no items until the next query.
+#define VOILE_TRAVERSAL_WORDS 7
+#define VOILE_TRAVERSAL_UNLISTED 6
+// What a dispatch of feature_contact.comp does. CPU devices execute both sides of branches, and loops once at least, so
+// they take two dispatches. The second one is empty in most passes, and most of the code is in it. GPUs would wait for
+// it.
+#define VOILE_FEATURES_ALL 0
+#define VOILE_FEATURES_LISTED 1    // answers the items
+#define VOILE_FEATURES_TRAVERSED 2 // traverses where they do not suffice
 // In a slot of a deforming mesh: its first feature, and how many there are in the lowest bits.
 #define VOILE_SLOT_FEATURE_BITS 3
 // Instead of the cosine of a facing: the mesh is too flat there for a feature.
@@ -186,13 +196,14 @@ struct NearFeaturesPush
     float progress_to;   // 0..1, of the step, at the next query
     uint colliders;
     uint near_stride;
-    uint first_patch;   // of the dispatch, and of its entries in the list of patches near features
-    uint dispatch_word; // of the sizes of the dispatches
-    uint lanes;         // threads per vertex
-    uint first_item;    // of those that the dispatch may write
-    uint items;         // their number
-    uint query;         // the number of this one in the step
-    uint retries;       // 1: the items of the query before are more than there is room for
+    uint first_patch;    // of the dispatch, and of its entries in the list of patches near features
+    uint dispatch_word;  // of the sizes of the dispatches
+    uint lanes;          // threads per vertex
+    uint first_item;     // of those that the dispatch may write
+    uint items;          // their number
+    uint query;          // the number of this one in the step
+    uint retries;        // 1: the items of the query before are more than there is room for
+    uint traversal_word; // of the sizes of the batch's traversals
 };
 
 // Push constants of feature contact. Times are in substeps of level 0.
@@ -213,6 +224,7 @@ struct FeaturePush
     uint lanes;            // threads per vertex that traverses
     uint kicks;            // substeps since the last contact pass
     uint pass;             // counted since near features were listed
+    uint traversal_word;   // of the sizes of the batch's traversals
 };
 
 VOILE_SHARED_END

@@ -4,6 +4,7 @@
 #include "colliders/specialization.hpp"
 
 #include "geometry/parallel.hpp"
+#include "shared/feature_layout.h"
 #include "shared/step_layout.h"
 
 #include "voile/solver.hpp"
@@ -120,17 +121,24 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options,
     add(kernels.near_colliders, "cloth near colliders", shaders::k_find_near_colliders_comp, plain);
     const Specialization at_rest{.workgroup_size = group, .colliders_move = 0};
     const Specialization moving{.workgroup_size = group, .colliders_move = 1};
-    const auto add_features = [&](gpu::Kernel& near, gpu::Kernel& test, gpu::Kernel& contact, uint32_t move)
+    const auto add_features =
+        [&](gpu::Kernel& near, gpu::Kernel& test, gpu::Kernel& contact, gpu::Kernel& traversal, uint32_t move)
     {
         const Specialization with{.workgroup_size = group, .interleaved = interleaved, .colliders_move = move};
         Specialization traversing = with;
-        traversing.fewer_rounds = device == VK_PHYSICAL_DEVICE_TYPE_CPU ? 1 : 0;
+        traversing.fewer_rounds = is_cpu(device) ? 1 : 0;
         add(near, "cloth near features", shaders::k_find_near_features_comp, traversing);
         add(test, "cloth feature tests", shaders::k_test_features_comp, with);
-        add(contact, "cloth feature contact", shaders::k_feature_contact_comp, with);
+        Specialization part = with;
+        part.feature_part = is_cpu(device) ? VOILE_FEATURES_LISTED : VOILE_FEATURES_ALL;
+        add(contact, "cloth feature contact", shaders::k_feature_contact_comp, part);
+        part.feature_part = VOILE_FEATURES_TRAVERSED;
+        if (is_cpu(device))
+            add(traversal, "cloth feature traversal", shaders::k_feature_contact_comp, part);
     };
-    add_features(kernels.near_features, kernels.test_features, kernels.feature_contact, 0);
-    add_features(kernels.near_features_moving, kernels.test_features_moving, kernels.feature_contact_moving, 1);
+    add_features(kernels.near_features, kernels.test_features, kernels.feature_contact, kernels.traverse_features, 0);
+    add_features(kernels.near_features_moving, kernels.test_features_moving, kernels.feature_contact_moving,
+                 kernels.traverse_features_moving, 1);
     add(kernels.depenetrate, "cloth depenetrate", shaders::k_depenetrate_comp, at_rest);
     add(kernels.depenetrate_moving, "cloth depenetrate", shaders::k_depenetrate_comp, moving);
     add(kernels.deform, "cloth deform", shaders::k_deform_comp, plain);

@@ -55,6 +55,8 @@ struct Kernels
     gpu::Kernel test_features_moving;
     gpu::Kernel feature_contact;
     gpu::Kernel feature_contact_moving;
+    gpu::Kernel traverse_features; // only on CPU devices (VOILE_FEATURES_TRAVERSED)
+    gpu::Kernel traverse_features_moving;
     gpu::Kernel depenetrate;        // out of meshes at rest
     gpu::Kernel depenetrate_moving; // where colliders move or deform
     gpu::Kernel deform;
@@ -74,6 +76,12 @@ struct Kernels
     gpu::Kernel statistics;
     gpu::Kernel statistics_reduce;
 };
+
+// Such a device executes both sides of each branch, and each loop once at least.
+inline bool is_cpu(VkPhysicalDeviceType device)
+{
+    return device == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
 
 // That any kernel binds.
 uint32_t most_storage_buffers();

@@ -24,8 +24,8 @@ namespace
 uint32_t feature_threads(const gpu::Context& context, const Tuning& tuning)
 {
     constexpr uint32_t k_many = 8; // a grid has six triangles around a vertex
-    const bool is_cpu = context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    return tuning.feature_threads > 0 ? tuning.feature_threads : std::min(is_cpu ? 1 : k_many, tuning.workgroup_size);
+    return tuning.feature_threads > 0 ? tuning.feature_threads
+                                      : std::min(is_cpu(context.device_type) ? 1 : k_many, tuning.workgroup_size);
 }
 
 // Measured: bench/NOTES.md, "Forces that threads share".
@@ -39,7 +39,7 @@ uint32_t sharing_vertices(const gpu::Context& context, const SolverOptions& opti
         return 0;
     if (options.tuning.sharing_vertices > 0)
         return options.tuning.sharing_vertices;
-    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 0 : k_few;
+    return is_cpu(context.device_type) ? 0 : k_few;
 }
 
 // Measured: bench/NOTES.md, "Levels of substeps".
@@ -47,7 +47,7 @@ uint32_t dispatch_vertices(const gpu::Context& context, const SolverOptions& opt
 {
     if (options.tuning.dispatch_vertices > 0)
         return options.tuning.dispatch_vertices;
-    return context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? 256 : 100000;
+    return is_cpu(context.device_type) ? 256 : 100000;
 }
 
 // One record per slot, all 0.

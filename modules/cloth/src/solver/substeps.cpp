@@ -49,9 +49,8 @@ uint32_t listing_threads(const Solver::State& solver)
     const Tuning& tuning = solver.options.tuning;
     if (tuning.listing_threads > 0)
         return tuning.listing_threads;
-    const bool is_cpu = solver.context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const uint32_t on_cpus = solver.passes.features < k_many_features ? 2 : 4;
-    return std::min(is_cpu ? on_cpus : 8, tuning.workgroup_size);
+    return std::min(is_cpu(solver.context.device_type) ? on_cpus : 8, tuning.workgroup_size);
 }
 
 } // namespace
@@ -218,6 +217,13 @@ void BatchRecorder::record_near_features(uint32_t substep)
     const std::array<uint32_t, VOILE_FEATURE_DISPATCH_WORDS> none{0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0};
     write_dispatches(recorder_, device_[buffer::feature_dispatch].handle(), word * sizeof(uint32_t),
                      std::as_bytes(std::span(none)));
+    const uint32_t traversals = batch_ * VOILE_TRAVERSAL_WORDS;
+    if (is_cpu(solver_.context.device_type))
+    {
+        constexpr std::array<uint32_t, VOILE_TRAVERSAL_WORDS> k_none{};
+        write_dispatches(recorder_, device_[buffer::feature_traversals].handle(), traversals * sizeof(uint32_t),
+                         std::as_bytes(std::span(k_none)));
+    }
     const uint32_t next = std::min(substep + list_period_, substeps_);
     const ItemRange items = feature_items();
     shared::NearFeaturesPush push{};
@@ -232,6 +238,7 @@ void BatchRecorder::record_near_features(uint32_t substep)
     push.first_item = items.first;
     push.items = items.count;
     push.query = substep + 1;
+    push.traversal_word = traversals;
     feature_passes_ = 0;
     const gpu::Kernel& kernel = solver_.passes.moving ? kernels_.near_features_moving : kernels_.near_features;
     recorder_.dispatch(kernel, device_.sets.near_features, lists_.patches.count * lanes * group_, group_, push);
@@ -262,7 +269,8 @@ void BatchRecorder::record_features(uint32_t substep)
                                    word,
                                    solver_.options.tuning.feature_threads,
                                    interval.count,
-                                   feature_passes_++};
+                                   feature_passes_++,
+                                   batch_ * VOILE_TRAVERSAL_WORDS};
     const bool moving = solver_.passes.moving;
     const size_t begins = proposal(substep);
     const size_t votes = context_.history.depenetration_step % 2;
@@ -272,6 +280,13 @@ void BatchRecorder::record_features(uint32_t substep)
     recorder_.dispatch_indirect(moving ? kernels_.feature_contact_moving : kernels_.feature_contact,
                                 device_.sets.feature_contact[begins][votes], sizes,
                                 (word + VOILE_DISPATCH_PATCHES) * sizeof(uint32_t), push);
+    if (!is_cpu(solver_.context.device_type))
+        return;
+    publish_dispatch(recorder_);
+    recorder_.dispatch_indirect(moving ? kernels_.traverse_features_moving : kernels_.traverse_features,
+                                device_.sets.feature_contact[begins][votes],
+                                device_[buffer::feature_traversals].handle(),
+                                (push.traversal_word + 3 * (push.pass % 2)) * sizeof(uint32_t), push);
 }
 
 void BatchRecorder::record_contact(uint32_t substep)
