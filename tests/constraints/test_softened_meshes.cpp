@@ -275,7 +275,7 @@ TEST_CASE("softened meshes come to rest on a sphere that is smaller than they ar
     const voile::ClothId id = take(harness.solver.add_cloth(cloth));
     (void)take(harness.solver.add_collider(voile::SphereCollider{.center = {0, 0.3f, 0}, .radius = 0.3f}));
     harness.upload();
-    harness.step({.max_substeps = 16}, 330);
+    harness.step({.max_substeps = 16}, 280);
     glm::dvec3 center(0);
     const std::vector<glm::vec4> x = harness.positions(id);
     for (const glm::vec4& p : x)

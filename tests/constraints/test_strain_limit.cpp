@@ -44,27 +44,27 @@ voile::GridCloth sheet(uint32_t side, voile::Integrator integrator)
 
 TEST_CASE("a soft sheet that swings down keeps its strain limit at the end of every step")
 {
-    for (const uint32_t side : {16u, 64u})
-        for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
+    for (const voile::Integrator integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
+    {
+        const uint32_t side = integrator == voile::Integrator::rk4 ? 16 : 64;
+        CAPTURE(side);
+        CAPTURE(int(integrator));
+        ClothHarness harness;
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(side, integrator)));
+        harness.upload();
+        const auto start = harness.positions(id);
+        double worst = 0;
+        for (int frame = 0; frame < 45; ++frame)
         {
-            CAPTURE(side);
-            CAPTURE(int(integrator));
-            ClothHarness harness;
-            const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(sheet(side, integrator)));
-            harness.upload();
-            const auto start = harness.positions(id);
-            double worst = 0;
-            for (int frame = 0; frame < 45; ++frame)
-            {
-                harness.step({});
-                worst = std::max(worst, static_cast<double>(harness.statistics().max_stretch));
-            }
-            CHECK(worst < k_most);
-            CHECK(worst > 0.9 * static_cast<double>(k_limit)); // it was at its limit
-            const auto end = harness.positions(id);
-            for (uint32_t column = 0; column < side; ++column)
-                CHECK(end[column] == start[column]); // what is held has not moved by a bit
+            harness.step({});
+            worst = std::max(worst, static_cast<double>(harness.statistics().max_stretch));
         }
+        CHECK(worst < k_most);
+        CHECK(worst > 0.9 * static_cast<double>(k_limit)); // it was at its limit
+        const auto end = harness.positions(id);
+        for (uint32_t column = 0; column < side; ++column)
+            CHECK(end[column] == start[column]); // what is held has not moved by a bit
+    }
 }
 
 TEST_CASE("a strain limit takes the same passes beside a wider cloth")

@@ -314,47 +314,43 @@ TEST_CASE("cloth inside overlapping solids leaves all of them in one piece")
          {voile::BoxCollider{.min = glm::vec3(-0.3f), .max = glm::vec3(0.3f)},
           voile::SphereCollider{.center = {0.1f, 0, 0}, .radius = 0.35f}},
          {tests::collider(ball), tests::collider(other)}}};
-    for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
+    ClothHarness harness;
+    std::vector<voile::ClothId> sheets;
+    for (size_t i = 0; i < pairs.size(); ++i)
     {
-        CAPTURE(integrator == voile::Integrator::verlet);
-        ClothHarness harness;
-        std::vector<voile::ClothId> sheets;
-        for (size_t i = 0; i < pairs.size(); ++i)
+        voile::GridCloth grid = tests::flat_sheet(10, 0.4f, 0);
+        grid.transform = glm::rotate(glm::mat4(1), 0.5f, {0, 0, 1});
+        grid.integrator = i % 2 == 0 ? voile::Integrator::rk4 : voile::Integrator::verlet;
+        grid.layers = 1u << i;
+        sheets.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
+        for (const Collider& collider : pairs[i])
         {
-            voile::GridCloth grid = tests::flat_sheet(10, 0.4f, 0);
-            grid.transform = glm::rotate(glm::mat4(1), 0.5f, {0, 0, 1});
-            grid.integrator = integrator;
-            grid.layers = 1u << i;
-            sheets.push_back(voile::engine::take(harness.solver.add_cloth(grid)));
-            for (const Collider& collider : pairs[i])
-            {
-                Collider layered = collider;
-                std::visit([&](auto& c) { c.layers = 1u << i; }, layered);
-                (void)voile::engine::take(harness.solver.add_collider(layered));
-            }
+            Collider layered = collider;
+            std::visit([&](auto& c) { c.layers = 1u << i; }, layered);
+            (void)voile::engine::take(harness.solver.add_collider(layered));
         }
-        harness.upload();
-        REQUIRE(harness.statistics().penetrating_vertices == 400);
-        float stretch = 0;
-        std::vector<float> fastest(sheets.size());
-        for (int frame = 0; frame < 45; ++frame)
-        {
-            harness.step({.gravity = glm::vec3(0)});
-            stretch = std::max(stretch, harness.statistics().max_stretch);
-            for (size_t i = 0; i < sheets.size(); ++i)
-                for (const glm::vec4& v : harness.velocities(sheets[i]))
-                    fastest[i] = std::max(fastest[i], glm::length(glm::vec3(v)));
-        }
-        CHECK(harness.statistics().penetrating_vertices == 0);
-        CHECK(stretch < 0.05f); // measured 0.012; 9.4 if one solid holds it
-        for (size_t i = 0; i < sheets.size(); ++i)
-        {
-            CAPTURE(i);
-            CHECK(fastest[i] < 2.5f); // m/s; measured 2.2
-        }
-        MESSAGE("stretch " << stretch << ", " << fastest[0] << ", " << fastest[1] << ", " << fastest[2] << " and "
-                           << fastest[3] << " m/s");
     }
+    harness.upload();
+    REQUIRE(harness.statistics().penetrating_vertices == 400);
+    float stretch = 0;
+    std::vector<float> fastest(sheets.size());
+    for (int frame = 0; frame < 45; ++frame)
+    {
+        harness.step({.gravity = glm::vec3(0)});
+        stretch = std::max(stretch, harness.statistics().max_stretch);
+        for (size_t i = 0; i < sheets.size(); ++i)
+            for (const glm::vec4& v : harness.velocities(sheets[i]))
+                fastest[i] = std::max(fastest[i], glm::length(glm::vec3(v)));
+    }
+    CHECK(harness.statistics().penetrating_vertices == 0);
+    CHECK(stretch < 0.05f); // measured 0.012; 9.4 if one solid holds it
+    for (size_t i = 0; i < sheets.size(); ++i)
+    {
+        CAPTURE(i);
+        CHECK(fastest[i] < 2.5f); // m/s; measured 2.2
+    }
+    MESSAGE("stretch " << stretch << ", " << fastest[0] << ", " << fastest[1] << ", " << fastest[2] << " and "
+                       << fastest[3] << " m/s");
 }
 
 // Parts that hooked around the edges were stretched until they snapped free.

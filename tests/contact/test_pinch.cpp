@@ -111,19 +111,20 @@ TEST_CASE("solids that close on a sheet hold it where it is, and release it when
 {
     const std::vector<Jaws> all = jaws();
     for (const Jaws& each : all)
-        for (const float overlap : {0.f, 0.02f})
-        {
-            CAPTURE(each.name);
-            CAPTURE(overlap);
-            const bool rk4 = ((&each - all.data()) % 2 == 1) != (overlap > 0); // in turn
-            CAPTURE(rk4);
-            const Pinched pinched = pinch(each, overlap, rk4 ? voile::Integrator::rk4 : voile::Integrator::verlet);
-            CHECK((pinched.most_inside > 0) == (overlap > 0));
-            CHECK(pinched.fastest < (overlap > 0 ? 10 : 2));       // measured: 6.4 and 0.95; before 132 and 20
-            CHECK(pinched.stretch < (overlap > 0 ? 0.8f : 0.05f)); // 0.40 and 0.025
-            CHECK(pinched.inside_at_end == 0);
-            CHECK(pinched.end.collider_pairs == 0);
-        }
+    {
+        const auto turn = &each - all.data();
+        const float overlap = turn % 2 == 0 ? 0.02f : 0;
+        const bool rk4 = turn >= 2;
+        CAPTURE(each.name);
+        CAPTURE(overlap);
+        CAPTURE(rk4);
+        const Pinched pinched = pinch(each, overlap, rk4 ? voile::Integrator::rk4 : voile::Integrator::verlet);
+        CHECK((pinched.most_inside > 0) == (overlap > 0));
+        CHECK(pinched.fastest < (overlap > 0 ? 10 : 2));       // measured: 6.4 and 0.95; before 132 and 20
+        CHECK(pinched.stretch < (overlap > 0 ? 0.8f : 0.05f)); // 0.40 and 0.025
+        CHECK(pinched.inside_at_end == 0);
+        CHECK(pinched.end.collider_pairs == 0);
+    }
 }
 
 // Cloth around the edges of boxes that had closed on it was taken for cloth that belongs there, and held within them:

@@ -121,9 +121,8 @@ void check(const Stretches& found, const Stretches& bounds)
 TEST_CASE("a character walks through a curtain, which slides off it instead of being carried along")
 {
     for (const Walk& walk :
-         {Walk{5, 2000, 0, false, 0.3f, 0.3f}, Walk{3, 16, 0, false, 0.3f, 0.3f}, Walk{1.5f, 16, 0, false, 0.3f, 0.3f},
-          Walk{3, 16, 0.3f, false, 0.3f, 0.4f}, Walk{5, 2000, 0.3f, true, 0.3f, 0.5f}, Walk{3, 8, 0, false, 0.3f, 0.6f},
-          Walk{5, 16, 0.3f, false, 0.3f, 0.5f}, Walk{1.5f, 16, 0.3f, false, 0.1f, 0.5f},
+         {Walk{5, 2000, 0, false, 0.3f, 0.3f}, Walk{3, 16, 0, false, 0.3f, 0.3f}, Walk{3, 16, 0.3f, false, 0.1f, 0.4f},
+          Walk{5, 2000, 0.3f, true, 0.3f, 0.5f}, Walk{3, 8, 0, false, 0.3f, 0.6f}, Walk{5, 16, 0.3f, false, 0.3f, 0.5f},
           Walk{1.5f, 16, 0.3f, false, 0.02f, 0.7f}})
     {
         CAPTURE(walk.speed);

@@ -80,19 +80,20 @@ TEST_CASE("cloth in solids that are apart leaves each on the nearer side")
          ball({-0.25f, -0.06f, 0.25f}, 0.12f), ball({0.25f, 0.06f, 0.25f}, 0.12f)},
     };
     for (const std::vector<voile::Collider>& solids : scenes)
-        for (const bool moves : {false, true})
-        {
-            const bool stiff = moves != ((&solids - scenes) % 2 == 0);
-            const voile::Fabric fabric = stiff ? voile::leather() : voile::wool();
-            CAPTURE(&solids - scenes);
-            CAPTURE(fabric.areal_density);
-            CAPTURE(moves);
-            const Left left = leave(solids, sheet(16, 0.9f, fabric), moves);
-            CHECK(left.inside > 0);
-            CHECK(left.still_inside == 0);
-            CHECK(left.fastest < 7);     // m/s; 3.0 at most, on an H200 4.5
-            CHECK(left.stretch < 0.15f); // 0.09 at most
-        }
+    {
+        const auto scene = &solids - scenes;
+        const bool moves = scene % 2 == 1; // and stiff cloth in two scenes, of which one moves
+        const bool stiff = scene >= 2;
+        const voile::Fabric fabric = stiff ? voile::leather() : voile::wool();
+        CAPTURE(scene);
+        CAPTURE(fabric.areal_density);
+        CAPTURE(moves);
+        const Left left = leave(solids, sheet(16, 0.9f, fabric), moves);
+        CHECK(left.inside > 0);
+        CHECK(left.still_inside == 0);
+        CHECK(left.fastest < 7);     // m/s; 3.0 at most, on an H200 4.5
+        CHECK(left.stretch < 0.15f); // 0.09 at most
+    }
 }
 
 // No vertex is in two of them.

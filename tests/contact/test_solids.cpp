@@ -100,25 +100,22 @@ TEST_CASE("a sheet that a solid pierces leaves it and comes to rest")
         {"a flat box", voile::engine::make_box({-0.3f, -0.06f, -0.2f}, {0.3f, 0.06f, 0.2f}), -0.05f, false},
     };
     for (const Case& c : cases)
-        for (const auto integrator : {voile::Integrator::rk4, voile::Integrator::verlet})
-        {
-            if (c.deforms && integrator == voile::Integrator::rk4)
-                continue; // the integrators differ in nothing that a deforming mesh changes
-            CAPTURE(c.name);
-            ClothHarness harness;
-            voile::GridCloth grid = sheet(11, 0.9f, {0.01f, c.height, 0.02f});
-            grid.integrator = integrator;
-            const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
-            voile::MeshCollider description = collider(c.mesh);
-            const auto exact = voile::engine::take(voile::MeshDistance::create(description));
-            description.deforms = c.deforms;
-            (void)voile::engine::take(harness.solver.add_collider(description));
-            (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -0.3f}));
-            harness.upload();
-            comes_out(harness, id, exact, 90, 25);
-            CHECK(harness.statistics().kinetic_energy < 0.02f); // J; measured: 0.0044
-            CHECK(harness.statistics().max_stretch < 0.1f);     // measured: 0.042
-        }
+    {
+        CAPTURE(c.name);
+        ClothHarness harness;
+        voile::GridCloth grid = sheet(11, 0.9f, {0.01f, c.height, 0.02f});
+        grid.integrator = (&c - cases) % 2 == 0 ? voile::Integrator::rk4 : voile::Integrator::verlet;
+        const voile::ClothId id = voile::engine::take(harness.solver.add_cloth(grid));
+        voile::MeshCollider description = collider(c.mesh);
+        const auto exact = voile::engine::take(voile::MeshDistance::create(description));
+        description.deforms = c.deforms;
+        (void)voile::engine::take(harness.solver.add_collider(description));
+        (void)voile::engine::take(harness.solver.add_collider(voile::PlaneCollider{.offset = -0.3f}));
+        harness.upload();
+        comes_out(harness, id, exact, 90, 25);
+        CHECK(harness.statistics().kinetic_energy < 0.02f); // J; measured: 0.0044
+        CHECK(harness.statistics().max_stretch < 0.1f);     // measured: 0.042
+    }
 }
 
 TEST_CASE("a small cloth leaves the inside of a ball of 20,736 triangles")

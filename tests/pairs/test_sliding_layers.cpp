@@ -14,7 +14,6 @@ using tests::at;
 using tests::budget_in_turn;
 using tests::Capes;
 using tests::k_all;
-using tests::k_budgets;
 using tests::k_frame;
 using tests::k_pi;
 using tests::mean_of;
@@ -207,10 +206,10 @@ TEST_CASE("layers fall freely beside a slope of large triangles that they are fa
     }
     harness.upload();
     const std::vector<glm::vec4> before = harness.positions(harness.cloths[0]);
-    harness.step(step_of(8), 36);
+    harness.step(step_of(8), 20);
     const glm::dvec3 moved = mean_of(harness.positions(harness.cloths[0])) - mean_of(before);
     CHECK(std::abs(moved.x) < 1e-4);
-    CHECK(moved.y == doctest::Approx(-0.5 * 9.81 * 0.36).epsilon(1e-3));
+    CHECK(moved.y == doctest::Approx(-0.5 * 9.81 / 9).epsilon(1e-3));
 }
 
 TEST_CASE("layers slide without friction over finely tessellated and slanted meshes, with all substeps and with 8")
@@ -220,26 +219,26 @@ TEST_CASE("layers slide without friction over finely tessellated and slanted mes
         const char* name;
         voile::engine::Mesh mesh;
         float speed; // m/s
+        uint32_t substeps;
     };
     const voile::engine::Mesh fine = tests::quads(
         600, 80, [](float column, float row) { return glm::vec3(0.005f * column - 0.3f, 0, 0.005f * row - 0.2f); });
     voile::engine::Mesh slanted = voile::engine::make_box({-2, -0.5f, -2}, {2, 0, 2});
     for (glm::vec3& p : slanted.positions)
         p = glm::vec3(turned(k_pi / 4, {0, 1, 0}) * glm::vec4(p, 1));
-    for (const Case& test : {Case{"5 mm", fine, 8}, Case{"slanted", slanted, 4}})
-        for (const uint32_t substeps : k_budgets)
-        {
-            CAPTURE(std::string(test.name));
-            CAPTURE(substeps);
-            PairHarness harness;
-            take(harness.solver.add_collider(voile::MeshCollider{.positions = test.mesh.positions,
-                                                                 .triangles = test.mesh.triangles,
-                                                                 .friction = voile::Friction{0, 0}}));
-            tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {test.speed, 0, 0}), {0, 0, 0});
-            harness.upload();
-            harness.step(step_of(substeps), 18);
-            for (const voile::ClothId cloth : harness.cloths)
-                CHECK(position_of(harness, cloth) ==
-                      doctest::Approx(0.3 * static_cast<double>(test.speed)).epsilon(1e-3));
-        }
+    for (const Case& test :
+         {Case{"5 mm", fine, 8, 8}, Case{"slanted", slanted, 4, k_all}, Case{"slanted", slanted, 4, 8}})
+    {
+        const uint32_t substeps = test.substeps;
+        CAPTURE(std::string(test.name));
+        CAPTURE(substeps);
+        PairHarness harness;
+        take(harness.solver.add_collider(voile::MeshCollider{
+            .positions = test.mesh.positions, .triangles = test.mesh.triangles, .friction = voile::Friction{0, 0}}));
+        tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {test.speed, 0, 0}), {0, 0, 0});
+        harness.upload();
+        harness.step(step_of(substeps), 18);
+        for (const voile::ClothId cloth : harness.cloths)
+            CHECK(position_of(harness, cloth) == doctest::Approx(0.3 * static_cast<double>(test.speed)).epsilon(1e-3));
+    }
 }

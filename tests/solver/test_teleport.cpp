@@ -90,35 +90,35 @@ TEST_CASE("a dressed character that is teleported is there at once, and its clot
         bool self_collision;
         bool pins_have_positions;
         bool mesh;
+        uint32_t substeps; // at most
     };
-    for (const Dress dress :
-         {Dress{false, true, false}, Dress{true, true, true}, Dress{true, false, false}, Dress{false, false, true}})
-        for (const uint32_t most : {8u, 2000u})
+    for (const Dress dress : {Dress{false, true, false, 8}, Dress{true, true, true, 8}, Dress{true, false, false, 2000},
+                              Dress{false, false, true, 2000}})
+    {
+        CAPTURE(dress.self_collision);
+        CAPTURE(dress.pins_have_positions);
+        CAPTURE(dress.mesh);
+        CAPTURE(dress.substeps);
+        Caped jumps(dress.self_collision, dress.pins_have_positions, dress.mesh);
+        Caped stays(dress.self_collision, dress.pins_have_positions, dress.mesh);
+        const voile::Step step{.max_substeps = dress.substeps, .air_density = 0};
+        for (int i = 0; i < 20; ++i)
+            for (Caped* character : {&jumps, &stays})
+                character->step(step);
+        jumps.teleport(to);
+        float farthest = 0;
+        float speed = 0;
+        for (int i = 0; i < 12; ++i)
         {
-            CAPTURE(dress.self_collision);
-            CAPTURE(dress.pins_have_positions);
-            CAPTURE(dress.mesh);
-            CAPTURE(most);
-            Caped jumps(dress.self_collision, dress.pins_have_positions, dress.mesh);
-            Caped stays(dress.self_collision, dress.pins_have_positions, dress.mesh);
-            const voile::Step step{.max_substeps = most, .air_density = 0};
-            for (int i = 0; i < 20; ++i)
-                for (Caped* character : {&jumps, &stays})
-                    character->step(step);
-            jumps.teleport(to);
-            float farthest = 0;
-            float speed = 0;
-            for (int i = 0; i < 12; ++i)
-            {
-                for (Caped* character : {&jumps, &stays})
-                    character->step(step);
-                farthest = std::max(farthest, difference(jumps, stays, to));
-                speed = std::max(speed, fastest(jumps) - fastest(stays));
-            }
-            MESSAGE("farthest " << farthest << " m, faster by " << speed << " m/s");
-            CHECK(farthest < 2e-3f);
-            CHECK(speed < 0.05f);
+            for (Caped* character : {&jumps, &stays})
+                character->step(step);
+            farthest = std::max(farthest, difference(jumps, stays, to));
+            speed = std::max(speed, fastest(jumps) - fastest(stays));
         }
+        MESSAGE("farthest " << farthest << " m, faster by " << speed << " m/s");
+        CHECK(farthest < 2e-3f);
+        CHECK(speed < 0.05f);
+    }
 }
 
 TEST_CASE("what is teleported refuses what it would refuse to move to")
