@@ -38,8 +38,7 @@
 #define VOILE_TRAVERSAL_WORDS 7
 #define VOILE_TRAVERSAL_UNLISTED 6
 // What a dispatch of feature_contact.comp does. CPU devices execute both sides of branches, and loops once at least, so
-// they take two dispatches. The second one is empty in most passes, and most of the code is in it. GPUs would wait for
-// it.
+// they take two dispatches: the second one is empty in most passes, and most of the code is in it. GPUs take one.
 #define VOILE_FEATURES_ALL 0
 #define VOILE_FEATURES_LISTED 1    // answers the items
 #define VOILE_FEATURES_TRAVERSED 2 // traverses where they do not suffice

@@ -77,7 +77,7 @@ struct Kernels
     gpu::Kernel statistics_reduce;
 };
 
-// Such a device executes both sides of each branch, and each loop once at least.
+// Mesa's CPU device executes both sides of each branch, and each loop once at least (bench/NOTES.md).
 inline bool is_cpu(VkPhysicalDeviceType device)
 {
     return device == VK_PHYSICAL_DEVICE_TYPE_CPU;
