@@ -229,15 +229,14 @@ TEST_CASE("layers slide without friction over finely tessellated and slanted mes
     for (const Case& test :
          {Case{"5 mm", fine, 8, 8}, Case{"slanted", slanted, 4, k_all}, Case{"slanted", slanted, 4, 8}})
     {
-        const uint32_t substeps = test.substeps;
         CAPTURE(std::string(test.name));
-        CAPTURE(substeps);
+        CAPTURE(test.substeps);
         PairHarness harness;
         take(harness.solver.add_collider(voile::MeshCollider{
             .positions = test.mesh.positions, .triangles = test.mesh.triangles, .friction = voile::Friction{0, 0}}));
         tests::add_layers(harness, airless_pair_sheet(9, 0.02f, {test.speed, 0, 0}), {0, 0, 0});
         harness.upload();
-        harness.step(step_of(substeps), 18);
+        harness.step(step_of(test.substeps), 18);
         for (const voile::ClothId cloth : harness.cloths)
             CHECK(position_of(harness, cloth) == doctest::Approx(0.3 * static_cast<double>(test.speed)).epsilon(1e-3));
     }
