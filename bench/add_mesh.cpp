@@ -37,7 +37,7 @@ voile::engine::Mesh make_ball()
     return voile::engine::make_sphere({0, 0, 0}, 1, 708);
 }
 
-constexpr AddCase k_cases[] = {
+constexpr AddCase k_meshes[] = {
     {"add-heart", "the reference scene's heart", scenes::make_reference_heart, 50},
     {"add-terrain", "an open mesh of 2 million triangles", make_terrain, 7},
     {"add-ball", "a closed mesh of 2 million triangles", make_ball, 7},
@@ -56,14 +56,14 @@ double time_add(const voile::engine::Device& device, const voile::MeshCollider& 
 
 std::span<const AddCase> add_cases()
 {
-    return k_cases;
+    return k_meshes;
 }
 
 const AddCase* find_add_case(std::string_view name)
 {
     const auto* found =
-        std::find_if(std::begin(k_cases), std::end(k_cases), [&](const AddCase& item) { return name == item.name; });
-    return found != std::end(k_cases) ? found : nullptr;
+        std::find_if(std::begin(k_meshes), std::end(k_meshes), [&](const AddCase& item) { return name == item.name; });
+    return found != std::end(k_meshes) ? found : nullptr;
 }
 
 AddMeasurement measure_add(const voile::engine::Device& device, const AddCase& item)

@@ -19,14 +19,13 @@ namespace
 
 constexpr uint32_t k_frames = 90;
 constexpr uint32_t k_first_timed = 30;
-constexpr float k_frame = 1.f / 60; // s
 
 constexpr auto k_rk4 = voile::Integrator::rk4;
 constexpr auto k_verlet = voile::Integrator::verlet;
 constexpr auto k_cotton = DrapeSubject::cotton;
 constexpr auto k_pinned = DrapeSubject::pinned_cotton;
 constexpr auto k_pinned_mesh = DrapeSubject::pinned_mesh;
-constexpr DrapeCase k_cases[] = {
+constexpr DrapeCase k_drapes[] = {
     {"drape-128-rk4", 128, k_rk4},
     {"drape-128-verlet", 128, k_verlet},
     {"drape-256-rk4", 256, k_rk4},
@@ -108,17 +107,18 @@ voile::GridCloth cloth_of(const DrapeCase& item)
     return grid;
 }
 
-struct Scene
+struct DrapeScene
 {
     voile::Solver solver;
     voile::ClothId cloth;
 };
 
-Scene make_scene(TimedQueue& queue, const DrapeCase& item, const voile::MeshCollider& heart, uint32_t workgroup_size)
+DrapeScene make_scene(TimedQueue& queue, const DrapeCase& item, const voile::MeshCollider& heart,
+                      uint32_t workgroup_size)
 {
     voile::SolverOptions options;
     options.tuning.workgroup_size = workgroup_size;
-    Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
+    DrapeScene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
     const voile::GridCloth grid = cloth_of(item);
     scene.cloth = item.subject == DrapeSubject::pinned_mesh
                       ? add_as_mesh(scene.solver, grid, false, voile::BendingModel::springs)
@@ -151,22 +151,22 @@ const char* describe(DrapeSubject subject)
 
 std::span<const DrapeCase> drape_cases()
 {
-    return k_cases;
+    return k_drapes;
 }
 
 const DrapeCase* find_drape_case(std::string_view name)
 {
-    const auto found =
-        std::find_if(std::begin(k_cases), std::end(k_cases), [&](const DrapeCase& item) { return name == item.name; });
-    return found == std::end(k_cases) ? nullptr : &*found;
+    const auto found = std::find_if(std::begin(k_drapes), std::end(k_drapes),
+                                    [&](const DrapeCase& item) { return name == item.name; });
+    return found == std::end(k_drapes) ? nullptr : &*found;
 }
 
 DrapeMeasurement measure_drape(TimedQueue& queue, const DrapeCase& item, const Settings& settings)
 {
     const voile::engine::Mesh mesh = scenes::make_drape_heart();
     const voile::MeshCollider heart{.name = "heart", .positions = mesh.positions, .triangles = mesh.triangles};
-    Scene scene = make_scene(queue, item, heart, settings.workgroup_size);
-    Scene other = make_scene(queue, item, heart, settings.workgroup_size);
+    DrapeScene scene = make_scene(queue, item, heart, settings.workgroup_size);
+    DrapeScene other = make_scene(queue, item, heart, settings.workgroup_size);
     voile::Solver& solver = scene.solver;
 
     const voile::Step step{.duration = k_frame, .max_substeps = item.max_substeps};

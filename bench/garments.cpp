@@ -17,9 +17,8 @@ namespace bench
 namespace
 {
 
-constexpr float k_frame = 1.f / 60; // s
 constexpr uint32_t k_settling_frames = 60;
-constexpr uint32_t k_frames = 120;
+constexpr uint32_t k_walk_frames = 120;
 constexpr uint32_t k_fewer_on_cpu = 10; // times
 constexpr float k_spacing = 0.025f;     // m, of the capes
 
@@ -64,13 +63,13 @@ struct Figure
     voile::AnchorId neck;
 };
 
-struct Scene
+struct FigureScene
 {
     voile::Solver solver;
     std::vector<Figure> figures;
 };
 
-void add_figure(Scene& scene, Figure figure, uint32_t side)
+void add_figure(FigureScene& scene, Figure figure, uint32_t side)
 {
     for (const Limb& limb : k_limbs)
         figure.limbs.push_back(voile::engine::take(
@@ -96,12 +95,12 @@ void add_figure(Scene& scene, Figure figure, uint32_t side)
     scene.figures.push_back(std::move(figure));
 }
 
-// Figures on a square, farther apart than they walk.
-Scene make_scene(TimedQueue& queue, uint32_t figures, uint32_t side, float scale, const Settings& settings)
+// FigureScene on a square, farther apart than they walk.
+FigureScene make_scene(TimedQueue& queue, uint32_t figures, uint32_t side, float scale, const Settings& settings)
 {
     voile::SolverOptions options;
     options.tuning.workgroup_size = settings.workgroup_size;
-    Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
+    FigureScene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
     const auto along = static_cast<uint32_t>(std::lround(std::sqrt(figures)));
     for (uint32_t i = 0; i < figures; ++i)
     {
@@ -116,7 +115,7 @@ Scene make_scene(TimedQueue& queue, uint32_t figures, uint32_t side, float scale
 }
 
 // The figures walk to and fro at up to 1.2 m/s, with a step per second.
-void walk(Scene& scene, uint32_t frame)
+void walk(FigureScene& scene, uint32_t frame)
 {
     const float time = k_frame * static_cast<float>(frame + 1);
     for (const Figure& figure : scene.figures)
@@ -144,7 +143,7 @@ double microseconds_since(std::chrono::steady_clock::time_point start)
 GarmentsMeasurement measure(TimedQueue& queue, uint32_t figures, uint32_t side, float scale, bool moving,
                             const Settings& settings)
 {
-    Scene scene = make_scene(queue, figures, side, scale, settings);
+    FigureScene scene = make_scene(queue, figures, side, scale, settings);
     PassTimes passes(queue);
     const voile::Step step{.duration = k_frame};
     GarmentsMeasurement result{.figures = figures, .side = side, .moving = moving};
@@ -152,7 +151,7 @@ GarmentsMeasurement measure(TimedQueue& queue, uint32_t figures, uint32_t side, 
     std::vector<double> moves;
     std::vector<double> records;
     const uint32_t fewer = queue.device().is_cpu() ? k_fewer_on_cpu : 1;
-    for (uint32_t frame = 0; frame < (k_settling_frames + k_frames) / fewer; ++frame)
+    for (uint32_t frame = 0; frame < (k_settling_frames + k_walk_frames) / fewer; ++frame)
     {
         const auto start = std::chrono::steady_clock::now();
         if (moving)

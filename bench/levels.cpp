@@ -9,8 +9,6 @@ namespace bench
 namespace
 {
 
-constexpr float k_frame = 1.f / 60; // s
-
 struct Pair
 {
     voile::Solver solver;

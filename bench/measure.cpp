@@ -19,8 +19,6 @@ namespace bench
 namespace
 {
 
-constexpr float k_frame = 1.f / 60; // s
-
 // The model of the bytes that the passes move. Every value that a vertex owns counts once per pass. The neighbors'
 // values that a gather reads again, the few bytes of cloths and patches, and the colliders' hierarchy are assumed to
 // come from the caches. A value is a vec4 of 16 bytes; "state" and "stage" are two of them, x and v. A residual is half

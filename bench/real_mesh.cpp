@@ -14,15 +14,14 @@ namespace bench
 namespace
 {
 
-constexpr uint32_t k_frames = 240;
+constexpr uint32_t k_fall_frames = 240;
 constexpr uint32_t k_side = 128; // vertices along each side
 constexpr uint32_t k_side_on_cpu = 64;
 constexpr uint32_t k_frames_per_count = 10; // of intersections
-constexpr float k_frame = 1.f / 60;         // s
 constexpr float k_width = 1.6f;             // m, of the cloth
 constexpr float k_gap = 0.05f;              // m, between mesh and cloth at the start
 
-struct Scene
+struct MeshScene
 {
     voile::Solver solver;
     voile::ColliderId mesh;
@@ -42,12 +41,12 @@ voile::engine::Mesh load_fitted(const std::filesystem::path& file)
     return mesh;
 }
 
-Scene make_scene(TimedQueue& queue, const voile::engine::Mesh& mesh, bool self_collision, const Settings& settings)
+MeshScene make_scene(TimedQueue& queue, const voile::engine::Mesh& mesh, bool self_collision, const Settings& settings)
 {
     voile::SolverOptions options;
     options.tuning.workgroup_size = settings.workgroup_size;
     options.intersections = true;
-    Scene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
+    MeshScene scene{voile::engine::take(voile::Solver::create(queue.context().handles, options)), {}};
     const uint32_t side = queue.device().is_cpu() ? k_side_on_cpu : k_side;
     voile::GridCloth grid;
     grid.columns = grid.rows = side;
@@ -66,7 +65,7 @@ Scene make_scene(TimedQueue& queue, const voile::engine::Mesh& mesh, bool self_c
 }
 
 // The mesh's pose at the end of a frame: 90 degrees per second about the vertical.
-void turn(Scene& scene, uint32_t frame)
+void turn(MeshScene& scene, uint32_t frame)
 {
     const float angle = glm::radians(90.f) * k_frame * static_cast<float>(frame + 1);
     voile::engine::take(scene.solver.move_collider(scene.mesh, glm::rotate(glm::mat4(1), angle, glm::vec3(0, 1, 0))));
@@ -108,8 +107,8 @@ std::vector<RealCase> real_cases(const std::filesystem::path& folder)
 RealMeasurement measure_real(TimedQueue& queue, const RealCase& item, const Settings& settings)
 {
     const voile::engine::Mesh mesh = load_fitted(item.file);
-    Scene scene = make_scene(queue, mesh, item.self_collision, settings);
-    Scene other = make_scene(queue, mesh, item.self_collision, settings);
+    MeshScene scene = make_scene(queue, mesh, item.self_collision, settings);
+    MeshScene other = make_scene(queue, mesh, item.self_collision, settings);
     const voile::Step step{.duration = k_frame};
     RealMeasurement result;
     result.vertices = scene.solver.vertex_count();
@@ -118,7 +117,7 @@ RealMeasurement measure_real(TimedQueue& queue, const RealCase& item, const Sett
     result.dispatches = scene.solver.dispatches(step);
     PassTimes passes(queue);
     std::vector<double> times; // ms
-    for (uint32_t frame = 0; frame < k_frames; ++frame)
+    for (uint32_t frame = 0; frame < k_fall_frames; ++frame)
     {
         if (item.turns)
         {
@@ -138,7 +137,7 @@ RealMeasurement measure_real(TimedQueue& queue, const RealCase& item, const Sett
         times.push_back(queue.time(record, warm_up) / 1000);
         if (settings.passes)
             passes.read();
-        if (frame % k_frames_per_count == 0 || frame + 1 == k_frames)
+        if (frame % k_frames_per_count == 0 || frame + 1 == k_fall_frames)
         {
             result.last_crossings = crossings(queue, scene.solver);
             result.most_crossings = std::max(result.most_crossings, result.last_crossings);

@@ -22,7 +22,7 @@ namespace bench
 namespace
 {
 
-constexpr RefitCase k_cases[] = {
+constexpr RefitCase k_refits[] = {
     {"refit-1m", "refit of 1,048,576 triangles", 1024, 512},
     {"refit-1m-128", "in workgroups of 128 threads instead of 256", 1024, 512, 128},
     {"refit-1m-512", "of 512", 1024, 512, 512},
@@ -99,14 +99,14 @@ void check_root(const RefitCase& item, const voile::shared::PaddedBox& root, con
 
 std::span<const RefitCase> refit_cases()
 {
-    return k_cases;
+    return k_refits;
 }
 
 const RefitCase* find_refit_case(std::string_view name)
 {
-    const auto* const found =
-        std::find_if(std::begin(k_cases), std::end(k_cases), [&](const RefitCase& item) { return name == item.name; });
-    return found == std::end(k_cases) ? nullptr : found;
+    const auto* const found = std::find_if(std::begin(k_refits), std::end(k_refits),
+                                           [&](const RefitCase& item) { return name == item.name; });
+    return found == std::end(k_refits) ? nullptr : found;
 }
 
 double refit_floor(const RefitMeasurement& measurement, const DeviceProbe& probe)

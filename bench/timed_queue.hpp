@@ -12,6 +12,8 @@
 namespace bench
 {
 
+inline constexpr float k_frame = 1.f / 60; // s
+
 class TimedQueue
 {
 public:

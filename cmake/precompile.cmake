@@ -1,11 +1,14 @@
-# Precompiled headers, which save about a third of the time to compile the project. They hide missing includes, so the preset
-# `dev` builds without. Off by default where a launcher such as ccache keeps objects, which it rarely can with them, and for
-# a host that adds the module to its own build.
+# Precompiled headers and batches of sources (unity builds), which more than halve the time to compile the project. They hide
+# missing includes, so the preset `dev` builds without. Off by default where a launcher such as ccache keeps objects, which
+# it rarely can with them, and for a host that adds the module to its own build.
 set(voile_precompiles OFF)
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
     set(voile_precompiles ON)
 endif()
-option(VOILE_PRECOMPILE_HEADERS "Precompile headers" ${voile_precompiles})
+option(VOILE_PRECOMPILE_HEADERS "Precompile headers, and compile sources in batches" ${voile_precompiles})
+if(VOILE_PRECOMPILE_HEADERS)
+    set(CMAKE_UNITY_BUILD ON)
+endif()
 
 # voile_precompile(target [header ...]): what most sources include, and other headers, for the target's sources in C++
 function(voile_precompile target)

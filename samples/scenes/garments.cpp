@@ -14,7 +14,6 @@ namespace scenes
 namespace
 {
 
-constexpr float k_pi = std::numbers::pi_v<float>;
 constexpr float k_cape_distance = 0.009f; // m, from the skin: 1.5 times the thickness of the scene's fabric
 
 // An elliptic cone from a ring to a hem, around the y axis.
@@ -65,8 +64,8 @@ voile::engine::Mesh make_cone(const Cone& cone)
         for (uint32_t column = 0; column < cone.columns; ++column)
         {
             const float down = static_cast<float>(row) / static_cast<float>(cone.rows - 1);
-            const float angle =
-                k_pi * (2 * static_cast<float>(column) / static_cast<float>(cone.columns) - 1); // from +z
+            const float angle = std::numbers::pi_v<float> *
+                                (2 * static_cast<float>(column) / static_cast<float>(cone.columns) - 1); // from +z
             const glm::vec2 half = glm::mix(cone.ring, cone.hem, down);
             mesh.positions.emplace_back(half.x * std::sin(angle), glm::mix(cone.ring_height, cone.hem_height, down),
                                         glm::mix(cone.ring_z, cone.hem_z, down) + half.y * std::cos(angle));

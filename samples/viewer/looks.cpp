@@ -9,7 +9,7 @@ namespace viewer
 namespace
 {
 
-using Surface = voile::engine::Surface;
+using EngineSurface = voile::engine::Surface;
 
 struct Colors
 {
@@ -25,20 +25,20 @@ constexpr std::array<Colors, 4> k_colors{{
 }};
 
 // What the look of a preset differs in from that of cloth without one.
-void apply_preset(const std::string& preset, Surface& surface)
+void apply_preset(const std::string& preset, EngineSurface& surface)
 {
     if (preset == "silk")
     {
-        surface.weave = Surface::Weave::satin;
-        surface.pattern = Surface::Pattern::none;
+        surface.weave = EngineSurface::Weave::satin;
+        surface.pattern = EngineSurface::Pattern::none;
         surface.roughness = 0.32f;
         surface.translucency = 0.3f;
         surface.back_color = 0.75f * surface.base_color; // the same threads, duller
     }
     else if (preset == "wool")
     {
-        surface.weave = Surface::Weave::twill;
-        surface.pattern = Surface::Pattern::stripes;
+        surface.weave = EngineSurface::Weave::twill;
+        surface.pattern = EngineSurface::Pattern::stripes;
         surface.roughness = 0.9f;
         surface.sheen = 0.6f;
         surface.translucency = 0.04f;
@@ -46,8 +46,8 @@ void apply_preset(const std::string& preset, Surface& surface)
     }
     else if (preset == "denim")
     {
-        surface.weave = Surface::Weave::twill;
-        surface.pattern = Surface::Pattern::none;
+        surface.weave = EngineSurface::Weave::twill;
+        surface.pattern = EngineSurface::Pattern::none;
         surface.base_color = {0.02f, 0.05f, 0.17f}; // dyed warp
         surface.back_color = {0.32f, 0.36f, 0.42f}; // plain weft
         surface.roughness = 0.85f;
@@ -56,8 +56,8 @@ void apply_preset(const std::string& preset, Surface& surface)
     }
     else if (preset == "leather")
     {
-        surface.weave = Surface::Weave::grain;
-        surface.pattern = Surface::Pattern::none;
+        surface.weave = EngineSurface::Weave::grain;
+        surface.pattern = EngineSurface::Pattern::none;
         surface.base_color = {0.17f, 0.07f, 0.03f};
         surface.back_color = {0.30f, 0.19f, 0.11f}; // suede
         surface.roughness = 0.42f;
@@ -74,19 +74,19 @@ void replace(T& value, const std::optional<T>& by)
 
 } // namespace
 
-Surface solid_surface(const SolidLookEntry& look)
+voile::engine::Surface solid_surface(const SolidLookEntry& look)
 {
-    Surface surface;
+    EngineSurface surface;
     surface.base_color = look.color.value_or(glm::vec3(0.66f, 0.60f, 0.50f));
     surface.roughness = look.roughness.value_or(0.45f);
     surface.metallic = look.metallic.value_or(0.f);
     return surface;
 }
 
-Surface cloth_surface(const ClothEntry& cloth, size_t index, float size)
+voile::engine::Surface cloth_surface(const ClothEntry& cloth, size_t index, float size)
 {
     const Colors& colors = k_colors[index % k_colors.size()];
-    Surface surface = voile::component::fabric_surface(colors.front, colors.back, size);
+    EngineSurface surface = voile::component::fabric_surface(colors.front, colors.back, size);
     apply_preset(cloth.material.preset.value_or(""), surface);
     const LookEntry& look = cloth.look;
     if (look.color) // by default both sides have it

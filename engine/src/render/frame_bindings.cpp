@@ -27,8 +27,6 @@ Owned<VkSampler> create_map_sampler(const gpu::Context& context, bool compares)
     return {context.device(), sampler, context.fn.vkDestroySampler};
 }
 
-constexpr VkShaderStageFlags k_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-
 } // namespace
 
 FrameBindings::FrameBindings(const Device& device, uint32_t slots, VkImageView shadow_map, VkImageView height_map)

@@ -1,6 +1,7 @@
 // Drawing surfaces, lines and dots.
 #include "render/pass_view.hpp"
 
+#include "render/frame_bindings.hpp"
 #include "render/scene_pipelines.hpp"
 
 #include "voile/gpu/recorder.hpp"
@@ -11,13 +12,6 @@
 
 namespace voile::engine
 {
-
-namespace
-{
-
-constexpr VkShaderStageFlags k_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-
-} // namespace
 
 struct PassView::Marks
 {
@@ -52,7 +46,7 @@ void PassView::draw(VkCommandBuffer cmd, const Drawable& drawable)
                                 surface.translucency,
                                 static_cast<uint32_t>(surface.weave),
                                 static_cast<uint32_t>(surface.pattern)};
-    context_.fn.vkCmdPushConstants(cmd, pass_.layout, k_stages, 0, sizeof(push), &push);
+    context_.fn.vkCmdPushConstants(cmd, pass_.layout, FrameBindings::k_stages, 0, sizeof(push), &push);
     const std::array buffers{drawable.positions, drawable.normals, drawable.texture_coordinates};
     const std::array offsets{drawable.position_offset, drawable.normal_offset, drawable.texture_coordinate_offset};
     const uint32_t streams = kind() == Kind::shadow ? 1 : 3;
@@ -71,7 +65,7 @@ void PassView::draw_marks(VkCommandBuffer cmd, VkPipeline pipeline, const Marks&
     bind(cmd, pipeline);
     shared::MarkPush push = marks.push;
     push.pixel = 2.f / glm::vec2(pass_.extent.width, pass_.extent.height);
-    context_.fn.vkCmdPushConstants(cmd, pass_.layout, k_stages, 0, sizeof(push), &push);
+    context_.fn.vkCmdPushConstants(cmd, pass_.layout, FrameBindings::k_stages, 0, sizeof(push), &push);
     context_.fn.vkCmdBindVertexBuffers(cmd, 0, static_cast<uint32_t>(marks.buffers.size()), marks.buffers.data(),
                                        marks.offsets.data());
     context_.fn.vkCmdDraw(cmd, 6, marks.count, 0, 0); // two triangles per mark
