@@ -6,10 +6,12 @@
 #include "voile/fabrics.hpp"
 
 #include <doctest/doctest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace
 {
@@ -142,6 +144,37 @@ TEST_CASE("a sheet on a budget swings by its row as far as with all substeps")
         const double budget = third_swing(kind, {.max_substeps = 16}, true);
         CHECK(budget > 0.97 * all); // measured: 1.006, 1.099
         CHECK(budget < 1.15 * all);
+    }
+}
+
+// Both ends of a link have the same limit, to the bit: else one moves where the other does not, and an irregular mesh
+// with springs of one stiffness lost 1e-3. Displacements between levels have residuals: without, 1e-6 at 300 m.
+TEST_CASE("free meshes on a budget keep their momentum near and far from the origin")
+{
+    for (const bool springs : {false, true})
+    {
+        CAPTURE(springs);
+        tests::ClothMesh mesh = tests::sheet(k_side, k_side, 1 / (k_side - 1.f));
+        tests::jitter(mesh, 0.01f);
+        voile::MeshCloth cloth = mesh.cloth();
+        cloth.integrator = voile::Integrator::verlet;
+        cloth.transform = glm::translate(glm::mat4(1), glm::vec3(springs ? 0 : 300, 0, 0));
+        cloth.material = voile::silk();
+        if (springs)
+            cloth.material = voile::make_material(voile::silk(), 1 / (k_side - 1.f), 1 / (k_side - 1.f));
+        ClothHarness harness;
+        const voile::ClothId id = take(harness.solver.add_cloth(cloth));
+        harness.upload();
+        std::mt19937 random(5);
+        std::normal_distribution<float> speed(0, 1.2f);
+        std::vector<glm::vec4> velocities(mesh.positions.size(), glm::vec4(0));
+        for (glm::vec4& v : velocities)
+            v = {speed(random), speed(random), speed(random), 0};
+        harness.set_velocities(id, velocities);
+        const tests::Momenta before = tests::momenta_of(harness, id);
+        harness.step({.max_substeps = 8, .gravity = glm::vec3(0), .air_density = 0}, 60);
+        const double change = glm::length(tests::momenta_of(harness, id).linear - before.linear) / before.speeds;
+        CHECK(change < 2e-7); // measured: 1e-8, 4e-8
     }
 }
 

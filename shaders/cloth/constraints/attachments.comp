@@ -98,7 +98,8 @@ void main()
     const float distance = length(offset);
     bool taut = false;
     if (distance > attachment.max_distance)
-        taut = keep_inside(shift, v, offset / distance, distance - attachment.max_distance, point_velocity) || taut;
+        taut = keep_inside(shift, v, offset / distance, distance - attachment.max_distance, point_velocity);
+    const bool held = taut || is_firm(attachment, w);
     if ((attachment.flags & VOILE_ATTACHMENT_BACKSTOP) != 0)
     {
         const vec3 n = normalize(mat3(anchor.to) * attachment.normal);
@@ -109,7 +110,7 @@ void main()
     residuals[attachment.vertex] = pack_residual(next);
     // After the strain limit (step 0) Verlet's last half kick is done, and the next step must not repeat it.
     const uint flags = (taut || grip > 0 ? VOILE_VERTEX_TAUT : 0) | (taut ? VOILE_VERTEX_BOUND : 0) |
-                       (is_firm(attachment, w) ? VOILE_VERTEX_HELD : 0);
+                       (held ? VOILE_VERTEX_HELD : 0);
     velocities[attachment.vertex] = vec4(v, h > 0 ? uint(velocity.w) | flags : velocity.w);
     if (verlet)
         predicted[attachment.vertex].xyz += v - velocity.xyz;

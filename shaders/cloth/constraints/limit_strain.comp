@@ -36,6 +36,7 @@ layout(VOILE_BINDING(limit_levels)) readonly buffer LimitLevels { LimitLevel lim
 layout(VOILE_BINDING(limit_links)) readonly buffer LimitLinks { LimitLink limit_links[]; };
 layout(VOILE_BINDING(limit_parents)) readonly buffer LimitParents { LimitParent limit_parents[]; };
 layout(VOILE_BINDING(step_positions)) readonly buffer StepPositions { vec4 step_positions[]; };
+layout(VOILE_BINDING(step_residuals)) readonly buffer StepResiduals { uvec2 step_residuals[]; };
 layout(VOILE_BINDING(step_velocities)) readonly buffer StepVelocities { vec4 step_velocities[]; };
 layout(VOILE_BINDING(stage_residuals)) readonly buffer StageResiduals { uvec2 residuals[]; };
 layout(VOILE_BINDING(next_residuals)) buffer NextResiduals { uvec2 next_residuals[]; };
@@ -97,6 +98,14 @@ Correction limit_grid(PatchVertex self)
     return correction;
 }
 
+// Of a vertex, by the passes so far. With residuals: far from the origin, rounded positions would lose momentum.
+Correction change_of(uint i)
+{
+    const FinePosition start = FinePosition(step_positions[i].xyz, unpack_residual(step_residuals[i]));
+    const FinePosition here = FinePosition(positions[i].xyz, unpack_residual(residuals[i]));
+    return Correction(displacement(start, here), velocities[i].xyz - step_velocities[i].xyz, k_no_correction.taken);
+}
+
 // The mean displacement and change of velocity of the neighbors on the lines of the level before.
 Correction between(PatchVertex self)
 {
@@ -110,8 +119,9 @@ Correction between(PatchVertex self)
     {
         const uint other = neighbor(self.index, corner_at(b, corner) - self.column_row, self.columns);
         const float weight = corner_weight(b, corner);
-        sum.x += weight * (positions[other].xyz - step_positions[other].xyz);
-        sum.v += weight * (velocities[other].xyz - step_velocities[other].xyz);
+        const Correction change = change_of(other);
+        sum.x += weight * change.x;
+        sum.v += weight * change.v;
     }
     return sum;
 }
@@ -156,8 +166,9 @@ Correction between_listed(PatchVertex self)
     {
         const LimitParent parent = limit_parents[vertex.first_parent + k];
         const uint other = cloths[self.cloth].first_vertex + parent.vertex;
-        sum.x += parent.weight * (positions[other].xyz - step_positions[other].xyz);
-        sum.v += parent.weight * (velocities[other].xyz - step_velocities[other].xyz);
+        const Correction change = change_of(other);
+        sum.x += parent.weight * change.x;
+        sum.v += parent.weight * change.v;
     }
     return sum;
 }

@@ -203,6 +203,7 @@ VOILE_ROLE(151, next_votes, uint, "the votes for exits that depenetration writes
 
 // The strain limit: the states before and after the change that is measured.
 VOILE_ROLE(152, step_positions, vec4, "the positions that the strain limit starts from")
+VOILE_ROLE(165, step_residuals, uvec2, "the residuals of these positions")
 VOILE_ROLE(153, step_velocities, vec4, "the velocities that the strain limit starts from")
 VOILE_ROLE(154, before_positions, vec4, "the positions before the change that is measured")
 VOILE_ROLE(155, before_residuals, uvec2, "the residuals before the change that is measured")

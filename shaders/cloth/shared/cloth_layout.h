@@ -43,7 +43,7 @@
 #define VOILE_VERTEX_TOUCHES_FEATURE 4 // a triangle or an edge around it touches a feature of a collider
 #define VOILE_VERTEX_SUPPORTED 8       // while colliders move: one of them holds it against other cloth
 #define VOILE_VERTEX_PUSHED 16         // a moving collider or pin pushes it, maybe through other cloth
-#define VOILE_VERTEX_HELD 32           // a spring holds it that acts within a few milliseconds
+#define VOILE_VERTEX_HELD 32           // a max-distance constraint is taut, or a spring acts within a few milliseconds
 #define VOILE_VERTEX_BOUND 64          // a tether, a max-distance constraint or a backstop limits it
 
 VOILE_SHARED_BEGIN(voile)

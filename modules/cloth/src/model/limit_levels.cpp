@@ -24,6 +24,16 @@ float shear_of(const FabricOffset& offset)
     return squared > 0 ? static_cast<float>(std::abs(2 * offset.real() * offset.imag()) / squared) : 0;
 }
 
+// Of a link from vertex `i`, at the lower one of its ends. Both ends take the same bits: were their limits different by a
+// rounding, one might move where the other does not.
+FabricOffset lower_offset(const LimitGraph& level, uint32_t i, const LimitGraphLink& link)
+{
+    if (i < link.to)
+        return link.offset;
+    const std::span<const LimitGraphLink> others = level.links_of(link.to);
+    return std::ranges::find(others, i, &LimitGraphLink::to)->offset;
+}
+
 float inverse(double mass)
 {
     return mass > 0 ? static_cast<float>(1 / mass) : 0;
@@ -82,10 +92,8 @@ LimitLevels packed(std::span<const CoarserGraph> coarser)
                 static_cast<uint32_t>(links.size()), static_cast<uint32_t>(own.size()), inverse(level.masses[i]), 0};
             for (const LimitGraphLink& link : own)
             {
-                // Both ends have the same limit: that of the lower one.
-                const FabricOffset at_lower = i < link.to ? link.offset : reversed(link);
-                links.push_back({level.vertices[link.to], static_cast<float>(link.length), shear_of(at_lower),
-                                 inverse(level.masses[link.to])});
+                links.push_back({level.vertices[link.to], static_cast<float>(link.length),
+                                 shear_of(lower_offset(level, i, link)), inverse(level.masses[link.to])});
             }
         }
         for (const LimitParents& leaving : coarser[l].parents)
@@ -113,8 +121,9 @@ LimitLevels packed(std::span<const CoarserGraph> coarser)
 std::vector<uint32_t> pinned_vertices(const ClothModel& cloth)
 {
     std::vector<uint32_t> pinned;
+    const float near = cloth.record.springs[0].rest_length; // a distance that is shorter holds about as a pin does
     for (const Attachment& attachment : cloth.attachments)
-        if (std::isinf(attachment.stiffness))
+        if (std::isinf(attachment.stiffness) || attachment.max_distance < near)
             pinned.push_back(attachment.vertex);
     for (uint32_t i = 0; i < cloth.start.size(); ++i)
         if (cloth.start[i].w == 0)
