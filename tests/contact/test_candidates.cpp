@@ -155,7 +155,7 @@ TEST_CASE("cloth at rest that is far thicker than the triangles' edges has lists
     (void)voile::engine::take(harness.solver.add_cloth(grid));
     (void)voile::engine::take(harness.solver.add_collider(tests::collider(ball)));
     harness.upload();
-    harness.step({}, 60);
+    harness.step({}, 30);
     const voile::Statistics statistics = harness.statistics();
     CHECK(statistics.contacts > 100);
     CHECK(statistics.candidates > statistics.contacts);

@@ -189,8 +189,7 @@ TEST_CASE("edges of a collider hold cloth equally whether a workgroup has room f
 {
     const auto check = [](const std::vector<voile::engine::Mesh>& colliders)
     {
-        for (const auto& [group, threads] :
-             {std::pair(128u, 1u), std::pair(128u, 4u), std::pair(128u, 8u), std::pair(4u, 1u)})
+        for (const auto& [group, threads] : {std::pair(128u, 1u), std::pair(128u, 8u), std::pair(4u, 1u)})
         {
             const auto fall_with = [&, of = glm::uvec2(group, threads)](std::optional<uint32_t> items)
             {
