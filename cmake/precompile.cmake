@@ -1,6 +1,7 @@
-# Precompiled headers and batches of sources (unity builds), which more than halve the time to compile the project. They hide
-# missing includes, so the preset `dev` builds without. Off by default where a launcher such as ccache keeps objects, which
-# it rarely can with them, and for a host that adds the module to its own build.
+# Precompiled headers, which save about a third of the time to compile the project, and batches of sources (unity builds),
+# which save two fifths of what then remains for the libraries, the viewer and the benchmark. They hide missing includes, so
+# the preset `dev` builds without. Off by default where a launcher such as ccache keeps objects, which it rarely can with
+# them, and for a host that adds the module to its own build.
 set(voile_precompiles OFF)
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
     set(voile_precompiles ON)

@@ -23,7 +23,7 @@ public:
 
     // One set, and push constants of a DrawPush for vertex and fragment shaders.
     [[nodiscard]] VkPipelineLayout layout() const { return layout_.get(); }
-    static constexpr VkShaderStageFlags k_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    static constexpr VkShaderStageFlags k_stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT; // of both
 
     // Writes the slot's uniforms and binds its set. The slot's previous use must have completed.
     void bind(VkCommandBuffer cmd, uint32_t slot, const shared::FrameUniforms& uniforms);

@@ -24,8 +24,8 @@ float shear_of(const FabricOffset& offset)
     return squared > 0 ? static_cast<float>(std::abs(2 * offset.real() * offset.imag()) / squared) : 0;
 }
 
-// Of a link from vertex `i`, at the lower one of its ends. Both ends take the same bits: were their limits different by a
-// rounding, one might move where the other does not.
+// Of a link from vertex `i`, at the lower one of its ends. Both ends take the same bits: were their limits different by
+// a rounding, one might move where the other does not.
 FabricOffset lower_offset(const LimitGraph& level, uint32_t i, const LimitGraphLink& link)
 {
     if (i < link.to)

@@ -29,8 +29,8 @@ struct LimitLevels
 // masses of its own.
 bool needs_limit_levels(const ClothModel& cloth);
 
-// Those without an inverse mass, those that are pinned to anchors, and those that a max-distance constraint keeps within
-// the length of a spring, in ascending order.
+// Those without an inverse mass, those that are pinned to anchors, and those that a max-distance constraint keeps
+// within the length of a spring, in ascending order.
 std::vector<uint32_t> pinned_vertices(const ClothModel& cloth);
 
 // Pinned vertices are on a level before others, so that all levels know what holds the cloth. Runs on several threads.

@@ -175,8 +175,10 @@ void Describer::add_strain_limit()
     const RoleBuffer spins{binding::spins, buffer::stage_c_positions};
     add_pass(sets_.limit_coarse[0], kernels_.limit_coarse, {k_state, k_stage_b});
     add_pass(sets_.limit_coarse[1], kernels_.limit_coarse, {k_state, k_stage_a});
-    add_pass(sets_.strain_back, kernels_.limit_strain, {k_stage_b, k_stage_a}, {step_positions, step_residuals, step_velocities});
-    add_pass(sets_.strain_forth, kernels_.limit_strain, {k_stage_a, k_stage_b}, {step_positions, step_residuals, step_velocities});
+    add_pass(sets_.strain_back, kernels_.limit_strain, {k_stage_b, k_stage_a},
+             {step_positions, step_residuals, step_velocities});
+    add_pass(sets_.strain_forth, kernels_.limit_strain, {k_stage_a, k_stage_b},
+             {step_positions, step_residuals, step_velocities});
     add(sets_.limit_spin, kernels_.limit_spin,
         {{binding::stage_positions, k_stage_a.positions},
          {binding::stage_velocities, k_stage_a.velocities},
