@@ -1,61 +1,86 @@
-// Traversal of an implicit complete BVH (padded_layout.h) with a query of type VOILE_QUERY, as in bvh.glsl. May be
-// included once per type of query.
+// Traversal of an implicit complete BVH (padded_layout.h) with a query of type VOILE_QUERY. May be included once per type of
+// query.
 //
-// The including kernel declares `padded_boxes[]` and defines before the include what bvh.glsl expects. visit_leaf is
-// called with a count of 1, once per triangle.
+// The including kernel declares `padded_boxes[]` and defines before the include what mesh_traversal.glsl expects. visit_leaf
+// is called with a count of 1, once per triangle.
 #ifndef VOILE_PADDED_GLSL
 #define VOILE_PADDED_GLSL
 
 #include "colliders/padded_box.glsl"
 
-// As in bvh.glsl.
-const uint k_padded_waiting_leaves = 8;
+// Leaves that wait until a thread has several. Neighboring threads find theirs at different iterations. Taking them
+// together keeps the triangle tests out of the loop over nodes.
+const uint k_waiting_leaves = 8;
+
+// A box whose children come next. The ancestors of a box are its index modulo the widths of their levels, so the stack is one
+// word: bit d is set if the second child of the current ancestor on level d is still to visit.
+struct PaddedCursor
+{
+    uint width; // of the level
+    uint box;   // on it
+    uint second;
+};
+
+const PaddedCursor k_padded_root = PaddedCursor(1, 0, 0);
+
+// What a step of a traversal finds: the leaves below a node, and which of these the query enters.
+struct FoundLeaves
+{
+    uvec2 leaves;
+    bvec2 entered;
+};
 
 #endif
 
-// The ancestors of a box are its index modulo the widths of their levels, so the stack is one word: bit d is set if the
-// second child of the current ancestor on level d is still to visit.
+// Enters the children of the cursor's box, which is no leaf, and moves on. False: none is left.
+bool next_padded(VOILE_QUERY query, uint first_box, uint triangles, inout PaddedCursor at, out FoundLeaves found)
+{
+    const uint child = first_box + 2 * at.width - 1 + at.box;
+    bool left = enters_node(query, padded_box(child));
+    bool right = enters_node(query, padded_box(child + at.width));
+    found = FoundLeaves(uvec2(at.box, at.box + at.width), bvec2(false));
+    if (2 * at.width == 1u << findMSB(2 * triangles - 1)) // the level of leaves
+    {
+        found.entered = bvec2(left, right && found.leaves.y < triangles); // a slot past the triangles repeats its sibling
+        left = right = false;
+    }
+    if (left && right)
+        at.second |= at.width;
+    if (!left && !right)
+    {
+        if (at.second == 0)
+            return false;
+        at.width = 1u << findMSB(at.second);
+        at.second ^= at.width;
+        at.box &= at.width - 1;
+        right = true;
+    }
+    at.box += left ? 0 : at.width;
+    at.width *= 2;
+    return true;
+}
+
 void traverse_padded(inout VOILE_QUERY query, uint first_box, uint first_leaf, uint triangles)
 {
-    const uint last = 1u << findMSB(2 * triangles - 1); // width of the level of leaves
-    uint leaves[k_padded_waiting_leaves];
+    uint leaves[k_waiting_leaves];
     uint waiting = 0;
-    uint second = 0;
-    uint width = 1; // of the level
-    uint box = 0;   // on it
-    const bool entered = enters_node(query, padded_box(first_box));
-    bool done = !entered || last == 1;
-    if (entered && last == 1) // one triangle: the root is its leaf
+    PaddedCursor at = k_padded_root;
+    bool done = !enters_node(query, padded_box(first_box));
+    if (!done && triangles == 1) // the root is its leaf
+    {
         leaves[waiting++] = 0;
+        done = true;
+    }
     do
     {
-        while (!done && waiting + 2 <= k_padded_waiting_leaves)
+        while (!done && waiting + 2 <= k_waiting_leaves)
         {
-            const uint child = first_box + 2 * width - 1 + box;
-            bool left = enters_node(query, padded_box(child));
-            bool right = enters_node(query, padded_box(child + width));
-            if (2 * width == last)
-            {
-                if (left)
-                    leaves[waiting++] = box;
-                if (right && box + width < triangles) // a slot past the triangles repeats its sibling
-                    leaves[waiting++] = box + width;
-                left = right = false;
-            }
-            if (left && right)
-                second |= width;
-            done = !left && !right && second == 0;
-            if (done)
-                break;
-            if (!left && !right)
-            {
-                width = 1u << findMSB(second);
-                second ^= width;
-                box &= width - 1;
-                right = true;
-            }
-            box += left ? 0 : width;
-            width *= 2;
+            FoundLeaves found;
+            done = !next_padded(query, first_box, triangles, at, found);
+            if (found.entered.x)
+                leaves[waiting++] = found.leaves.x;
+            if (found.entered.y)
+                leaves[waiting++] = found.leaves.y;
         }
         for (uint i = 0; i < waiting; ++i)
             visit_leaf(query, first_leaf + leaves[i], 1);

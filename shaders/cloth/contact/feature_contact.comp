@@ -147,8 +147,7 @@ void visit_leaf(inout FeatureQuery query, uint first, uint count)
 }
 
 #define VOILE_QUERY FeatureQuery
-#include "colliders/bvh.glsl"
-#include "colliders/padded.glsl"
+#include "colliders/mesh_traversal.glsl"
 
 Box feature_box(FeatureSet set)
 {
@@ -180,10 +179,9 @@ void visit_collider(uint c, uint part, uint parts)
         any_guarded = any_guarded || is_fast(longest_motion(piece.b, true, vec3(0)));
         const Box box = piece_box(finds_guards);
         FeatureQuery query = FeatureQuery(Box(max(box.min, around.min), min(box.max, around.max)));
-        if (is_deforming(collider_flags))
-            traverse_padded(query, collider.first_node, set.first_node, collider.triangles);
-        else
-            traverse_bvh(query, set.first_node, set.first_feature);
+        const bool deforms = is_deforming(collider_flags);
+        traverse(query, MeshTree(deforms, deforms ? collider.first_node : set.first_node,
+                                 deforms ? set.first_node : set.first_feature, collider.triangles));
     }
 }
 

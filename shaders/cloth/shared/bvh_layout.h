@@ -1,5 +1,5 @@
 // The bounding volume hierarchy as the GPU reads it. Written by modules/cloth/src/geometry/bvh.cpp, read by
-// bvh.glsl.
+// mesh_traversal.glsl.
 #ifndef VOILE_BVH_LAYOUT_H
 #define VOILE_BVH_LAYOUT_H
 
