@@ -9,6 +9,8 @@ endif()
 option(VOILE_PRECOMPILE_HEADERS "Precompile headers, and compile sources in batches" ${voile_precompiles})
 if(VOILE_PRECOMPILE_HEADERS)
     set(CMAKE_UNITY_BUILD ON)
+    # In a batch each source is an include, and GCC warns of types of its anonymous namespace as if others could include it.
+    add_compile_options($<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
 endif()
 
 # voile_precompile(target [header ...]): what most sources include, and other headers, for the target's sources in C++

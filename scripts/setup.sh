@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Installs the packages that Voile needs to build and run, on Debian 12 (apt). Debian 13 has packages of these names
-# except RenderDoc's; neither it nor Ubuntu 24.04 was tried. Without apt it prints what to install. Does nothing if
-# everything is installed.
+# Installs the packages that Voile needs to build and run, on Debian 12 and 13 and Ubuntu 24.04 (apt); the last two have
+# none of RenderDoc. Without apt it prints what to install. Does nothing if everything is installed.
 #
 #   scripts/setup.sh            installs what is missing
 #   scripts/setup.sh --check    only prints missing packages; exit code 1 if there are any

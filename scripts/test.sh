@@ -28,8 +28,8 @@ scripts/setup.sh
 scripts/build.sh
 
 # One test per core runs at a time, so a software device gets no threads of its own: its kernels run on the thread that
-# submits them.
-export LP_NUM_THREADS="${LP_NUM_THREADS:-0}"
+# submits them, with vectors of 128 bits, in which fewer lanes wait for others.
+export LP_NUM_THREADS="${LP_NUM_THREADS:-0}" LP_NATIVE_VECTOR_WIDTH="${LP_NATIVE_VECTOR_WIDTH:-128}"
 SECONDS=0
 status=0
 ctest --test-dir build/release --parallel "$(nproc 2>/dev/null || echo 2)" --output-on-failure \

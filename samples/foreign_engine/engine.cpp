@@ -62,15 +62,14 @@ std::optional<uint32_t> find_family(const std::vector<VkQueueFamilyProperties>& 
 
 } // namespace
 
-// Each function is looked up by its name where it is used.
+// Each function is looked up by its name where it is used. A device knows none of the instance, and layers warn who
+// asks it.
 #define FN(name) reinterpret_cast<PFN_##name>(find(#name))
+#define INSTANCE_FN(name) reinterpret_cast<PFN_##name>(get_(instance_, #name))
 
 PFN_vkVoidFunction Engine::find(const char* name) const
 {
-    if (device_ != VK_NULL_HANDLE)
-        if (const PFN_vkVoidFunction found = get_for_device_(device_, name))
-            return found;
-    return get_(instance_, name);
+    return get_for_device_(device_, name);
 }
 
 Engine::Engine(const EngineOptions& options)
@@ -90,25 +89,25 @@ void Engine::create_instance()
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
-    check(FN(vkCreateInstance)(&info, nullptr, &instance_), "instance");
-    get_for_device_ = FN(vkGetDeviceProcAddr);
+    check(INSTANCE_FN(vkCreateInstance)(&info, nullptr, &instance_), "instance");
+    get_for_device_ = INSTANCE_FN(vkGetDeviceProcAddr);
 }
 
 std::vector<VkQueueFamilyProperties> Engine::queue_families(VkPhysicalDevice device) const
 {
     uint32_t count = 0;
-    FN(vkGetPhysicalDeviceQueueFamilyProperties)(device, &count, nullptr);
+    INSTANCE_FN(vkGetPhysicalDeviceQueueFamilyProperties)(device, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
-    FN(vkGetPhysicalDeviceQueueFamilyProperties)(device, &count, families.data());
+    INSTANCE_FN(vkGetPhysicalDeviceQueueFamilyProperties)(device, &count, families.data());
     return families;
 }
 
 void Engine::choose_device(bool compute_only)
 {
     uint32_t count = 0;
-    check(FN(vkEnumeratePhysicalDevices)(instance_, &count, nullptr), "physical devices");
+    check(INSTANCE_FN(vkEnumeratePhysicalDevices)(instance_, &count, nullptr), "physical devices");
     std::vector<VkPhysicalDevice> devices(count);
-    check(FN(vkEnumeratePhysicalDevices)(instance_, &count, devices.data()), "physical devices");
+    check(INSTANCE_FN(vkEnumeratePhysicalDevices)(instance_, &count, devices.data()), "physical devices");
     for (const VkPhysicalDevice device : devices)
         if (const auto family =
                 find_family(queue_families(device), compute_only ? k_computes : k_computes | VK_QUEUE_GRAPHICS_BIT))
@@ -149,7 +148,7 @@ void Engine::create_device(bool async_compute)
     info.pNext = &features;
     info.queueCreateInfoCount = static_cast<uint32_t>(queue_infos.size());
     info.pQueueCreateInfos = queue_infos.data();
-    check(FN(vkCreateDevice)(physical_device_, &info, nullptr, &device_), "device");
+    check(INSTANCE_FN(vkCreateDevice)(physical_device_, &info, nullptr, &device_), "device");
     for (size_t i = 0; i < queues_.size(); ++i)
         FN(vkGetDeviceQueue)
     (device_, queues_[i].family, i == 1 && same_family ? queue_infos[0].queueCount - 1 : 0, &queues_[i].handle);
@@ -190,7 +189,7 @@ Engine::~Engine()
         }
     FN(vkDestroyDevice)(device_, nullptr);
     device_ = VK_NULL_HANDLE;
-    FN(vkDestroyInstance)(instance_, nullptr);
+    INSTANCE_FN(vkDestroyInstance)(instance_, nullptr);
 }
 
 uint32_t Engine::slot(Lane lane) const
@@ -271,7 +270,7 @@ Buffer Engine::create_buffer(VkDeviceSize bytes, VkBufferUsageFlags usage, VkMem
     VkMemoryRequirements needs{};
     FN(vkGetBufferMemoryRequirements)(device_, buffer.handle, &needs);
     VkPhysicalDeviceMemoryProperties memory{};
-    FN(vkGetPhysicalDeviceMemoryProperties)(physical_device_, &memory);
+    INSTANCE_FN(vkGetPhysicalDeviceMemoryProperties)(physical_device_, &memory);
     VkMemoryAllocateInfo allocation{};
     allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocation.allocationSize = needs.size;

@@ -74,7 +74,7 @@ public:
     void destroy_buffer(const Buffer& buffer);
     VkSemaphore create_semaphore();
 
-    // The function of the device, or of the instance, null where there is none.
+    // The function of the device, null where there is none.
     [[nodiscard]] PFN_vkVoidFunction find(const char* name) const;
 
     [[nodiscard]] VkInstance instance() const { return instance_; }

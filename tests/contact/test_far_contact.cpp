@@ -143,8 +143,8 @@ void check_statistics(const Outcomes& here, const Outcomes& far)
     CHECK(far.after.deepest_penetration == doctest::Approx(here.after.deepest_penetration).epsilon(1e-3));
 }
 
-// At any distance, sheets end within five thousandths of their displacement (measured: 3.6 without friction, on
-// lavapipe).
+// At any distance, sheets end within eight thousandths of their displacement (measured on lavapipe: 3.6 without
+// friction with Mesa 22.3, 5.2 with 25.2).
 void check_same(const std::vector<Scene>& scenes, const Outcomes& here, const Outcomes& far)
 {
     for (size_t i = 0; i < scenes.size(); ++i)
@@ -154,7 +154,7 @@ void check_same(const std::vector<Scene>& scenes, const Outcomes& here, const Ou
         const double differs = farthest(here.scenes[i].end, far.scenes[i].end);
         CAPTURE(displacement);
         CAPTURE(differs);
-        CHECK(differs < std::max(5e-3 * displacement, 1e-6));
+        CHECK(differs < std::max(8e-3 * displacement, 1e-6));
     }
     check_statistics(here, far);
 }

@@ -22,14 +22,14 @@ namespace
 
 using voile::LimitLevels;
 
-voile::ClothModel& added(voile::Model& model, const tests::ClothMesh& mesh, std::vector<uint32_t> pins = {})
+voile::ClothModel* added(voile::Model& model, const tests::ClothMesh& mesh, std::vector<uint32_t> pins = {})
 {
     voile::MeshCloth cloth = mesh.cloth();
     cloth.material = voile::cotton();
     cloth.pins = std::move(pins);
     const auto id = model.add(cloth);
     REQUIRE(id);
-    return *model.cloths.find(id.value());
+    return model.cloths.find(id.value());
 }
 
 // Calls each(level, vertex, link) for all links of the levels above the first.
@@ -62,7 +62,7 @@ TEST_CASE("levels of a strain limit have ever fewer vertices, links that both en
          {tests::jittered_sheet(23, 17), tests::torus(30, 14), tests::sheet(40, 3, 0.05f)})
     {
         voile::Model model;
-        const LimitLevels levels = voile::make_limit_levels(added(model, mesh));
+        const LimitLevels levels = voile::make_limit_levels(*added(model, mesh));
         CHECK(levels.count >= 4);
         std::vector<size_t> on_level(levels.count);
         for (const voile::shared::LimitVertex& vertex : levels.vertices)
@@ -103,7 +103,7 @@ TEST_CASE("the vertices on wide levels of a strain limit are listed, the widest 
     {
         CAPTURE(side);
         voile::Model model;
-        const LimitLevels levels = voile::make_limit_levels(added(model, tests::sheet(side, side, 0.05f)));
+        const LimitLevels levels = voile::make_limit_levels(*added(model, tests::sheet(side, side, 0.05f)));
         std::vector<size_t> on_level(levels.count);
         for (const voile::shared::LimitVertex& vertex : levels.vertices)
             for (uint32_t l = 0; l <= vertex.top; ++l)
@@ -132,7 +132,7 @@ TEST_CASE("the vertices on wide levels of a strain limit are listed, the widest 
 TEST_CASE("a level of a strain limit has the mass of the cloth")
 {
     voile::Model model;
-    const voile::ClothModel& cloth = added(model, tests::jittered_sheet(23, 17));
+    const voile::ClothModel& cloth = *added(model, tests::jittered_sheet(23, 17));
     const LimitLevels levels = voile::make_limit_levels(cloth);
     for (uint32_t l = 0; l < levels.count; ++l)
     {
@@ -156,7 +156,7 @@ TEST_CASE("links of a strain limit are as long as the cloth between their ends, 
         const tests::ClothMesh flat = tests::sheet(33, 15, k_spacing);
         voile::Model model;
         const LimitLevels levels =
-            voile::make_limit_levels(added(model, bent ? bent_sheet(33, 15, k_spacing, 0.3f) : flat));
+            voile::make_limit_levels(*added(model, bent ? bent_sheet(33, 15, k_spacing, 0.3f) : flat));
         double longest = 0;
         double worst = 0;
         for_each_link(levels,
@@ -187,7 +187,7 @@ TEST_CASE("no link of a strain limit holds a cut together")
                       return low == k_cut && high == k_cut + 1 && t.x / 31 < 27 && t.y / 31 < 27 && t.z / 31 < 27;
                   });
     voile::Model model;
-    const LimitLevels levels = voile::make_limit_levels(added(model, mesh));
+    const LimitLevels levels = voile::make_limit_levels(*added(model, mesh));
     for_each_link(levels,
                   [&](uint32_t, uint32_t v, const voile::shared::LimitLink& link)
                   {
@@ -208,7 +208,7 @@ TEST_CASE("pins are on all levels of a strain limit, or near one that is")
     for (const std::vector<uint32_t>& pins : {std::vector<uint32_t>{3 * 40 + 7, 29 * 40 + 31}, {0, 1, 2, 39, 1000}})
     {
         voile::Model model;
-        const LimitLevels levels = voile::make_limit_levels(added(model, mesh, pins));
+        const LimitLevels levels = voile::make_limit_levels(*added(model, mesh, pins));
         uint32_t highest = 0;
         for (const uint32_t pin : pins)
             highest = std::max(highest, levels.vertices[pin].top);
@@ -221,7 +221,7 @@ TEST_CASE("the levels of a strain limit do not depend on the number of threads")
 {
     const tests::ClothMesh mesh = tests::jittered_sheet(70, 60);
     voile::Model model;
-    const voile::ClothModel& cloth = added(model, mesh, {0, 69});
+    const voile::ClothModel& cloth = *added(model, mesh, {0, 69});
     const LimitLevels expected = voile::make_limit_levels(cloth);
     uint32_t tasks = 0;
     const voile::JobScope scope({.run = tests::run_backwards, .user = &tasks, .workers = 5});

@@ -18,8 +18,8 @@ namespace
 // Without validation: the same commands are validated by the other tests.
 voile::engine::Device& device()
 {
-    static voile::engine::Device instance(
-        {.device = {}, .validation = false, .instance_extensions = {}, .swapchain = false});
+    static auto& instance = tests::UntilEnd::get().keep<voile::engine::Device>(
+        voile::engine::DeviceOptions{.device = {}, .validation = false, .instance_extensions = {}, .swapchain = false});
     return instance;
 }
 

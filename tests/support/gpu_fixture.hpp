@@ -3,6 +3,7 @@
 #pragma once
 
 #include "support/kept_pipelines.hpp"
+#include "support/until_end.hpp"
 
 #include "voile/engine/gpu/device.hpp"
 #include "voile/engine/gpu/download.hpp"
@@ -25,8 +26,8 @@ namespace tests
 // One per process: making a device takes longer than most tests. Tests run one after another.
 inline voile::engine::Device& device()
 {
-    static voile::engine::Device instance(
-        {.device = {}, .validation = true, .instance_extensions = {}, .swapchain = false});
+    static auto& instance = UntilEnd::get().keep<voile::engine::Device>(
+        voile::engine::DeviceOptions{.device = {}, .validation = true, .instance_extensions = {}, .swapchain = false});
     return instance;
 }
 
@@ -67,7 +68,7 @@ inline voile::Handles test_handles()
     voile::Handles handles = KeptPipelines::handles(device().context());
     if (device().context().device_type != VK_PHYSICAL_DEVICE_TYPE_CPU)
         return handles;
-    static FillingAllocator allocator(k_filled_nan);
+    static auto& allocator = UntilEnd::get().keep<FillingAllocator>(k_filled_nan);
     handles.buffer_allocator = &allocator;
     return handles;
 }

@@ -2,9 +2,11 @@
 // takes longer to make those of a solver than most tests take to run, and most tests bind a few of them. Solvers get
 // handles whose functions return a promise in place of a pipeline: of the same code with the same constants the same
 // one. Shader modules of the same code are the same, too: the validation layer takes longer to check those of a solver
-// than the rest of its creation takes. Nothing is destroyed before the process ends. The viewer makes all pipelines in
-// advance.
+// than the rest of its creation takes. Nothing is destroyed before the last test has run. The viewer makes all
+// pipelines in advance.
 #pragma once
+
+#include "support/until_end.hpp"
 
 #include "voile/engine/gpu/device.hpp"
 
@@ -27,7 +29,7 @@ public:
     // The test device's handles, with functions that keep pipelines.
     static voile::Handles handles(const voile::gpu::Context& context)
     {
-        static KeptPipelines kept(context);
+        static auto& kept = UntilEnd::get().keep<KeptPipelines>(context);
         return kept.handles();
     }
 

@@ -1,3 +1,12 @@
 // The entry point of every test executable.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include "support/until_end.hpp"
+
+#define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
+
+int main(int count, char** arguments)
+{
+    const int failed = doctest::Context(count, arguments).run();
+    tests::UntilEnd::get().destroy();
+    return failed;
+}

@@ -70,6 +70,13 @@ public:
 
     void send(int signal) const { ::kill(process_, signal); }
 
+    // It cannot write beyond this many bytes of a file from now on.
+    void limit_files(rlim_t bytes) const
+    {
+        const rlimit limit{bytes, bytes};
+        ::prlimit(process_, RLIMIT_FSIZE, &limit, nullptr);
+    }
+
     // False if it does not come true within a minute.
     template <typename Condition>
     static bool wait_until(Condition condition)

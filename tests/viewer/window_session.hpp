@@ -37,6 +37,7 @@ public:
                    [&]
                    {
                        ::setenv("DISPLAY", display.name().c_str(), 1);
+                       ::setenv("XDG_RUNTIME_DIR", "/nowhere", 0); // Wayland's library prints an error without one
                        (void)!::chdir(folder.path().c_str());
                    }),
           window(display, "voile: ")
