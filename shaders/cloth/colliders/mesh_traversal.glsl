@@ -25,7 +25,7 @@ MeshTree mesh_tree(ColliderRecord collider)
 
 #endif
 
-// One loop for both kinds of trees: what visit_leaf calls is copied once, which halves kernels that traverse.
+// One loop for both kinds of trees: what visit_leaf calls is copied once, not twice.
 void traverse(inout VOILE_QUERY query, MeshTree tree)
 {
     uint leaves[k_waiting_leaves];
