@@ -28,11 +28,8 @@ scripts/setup.sh
 scripts/build.sh
 
 # One test per core runs at a time, so a software device gets no threads of its own: its kernels run on the thread that
-# submits them. With vectors of 128 bits fewer lanes wait for others on Debian 12's Mesa; Mesa 25 crashes with them.
+# submits them.
 export LP_NUM_THREADS="${LP_NUM_THREADS:-0}"
-if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then
-  export LP_NATIVE_VECTOR_WIDTH="${LP_NATIVE_VECTOR_WIDTH:-128}"
-fi
 SECONDS=0
 status=0
 ctest --test-dir build/release --parallel "$(nproc 2>/dev/null || echo 2)" --output-on-failure \

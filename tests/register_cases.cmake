@@ -20,7 +20,7 @@ function(add_cases name label)
     add_test("${name}" ${programs}/${subject} ${ARGN})
     # A filter that finds no case would pass. A test is skipped if a case of it is, and the others pass.
     set_tests_properties("${name}" PROPERTIES
-        LABELS "${label}" WORKING_DIRECTORY ${folder} TIMEOUT 1800 FAIL_REGULAR_EXPRESSION "test cases: +0 [|]"
+        LABELS "${label}" WORKING_DIRECTORY ${folder} TIMEOUT 900 FAIL_REGULAR_EXPRESSION "test cases: +0 [|]"
         SKIP_REGULAR_EXPRESSION "MESSAGE: skipped:.*test cases: +[0-9]+ [|] +[0-9]+ passed [|] 0 failed")
     if(layers AND subject IN_LIST starting_programs)
         set_tests_properties("${name}" PROPERTIES ENVIRONMENT

@@ -25,7 +25,7 @@ struct SampleRun
 
     std::string output;       // standard output
     std::vector<Line> errors; // standard error
-    int status = -1;          // the exit status
+    int status = -1;          // the exit status; as in a shell, 128 and the signal that ended it
     double seconds = 0;
 };
 
@@ -60,6 +60,10 @@ inline SampleRun run_sample(const TestFolder& folder, const std::string& name, c
 inline void check_progress(const SampleRun& run)
 {
     CAPTURE(run.output);
+    std::string errors;
+    for (const SampleRun::Line& line : run.errors)
+        errors += line.text + '\n';
+    CAPTURE(errors);
     REQUIRE(run.status == 0);
     REQUIRE(!run.errors.empty());
     CHECK(run.errors[0].text.starts_with("preparing"));

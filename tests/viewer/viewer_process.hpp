@@ -7,17 +7,28 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <exception>
 #include <string>
 #include <thread>
 #include <vector>
 
 namespace tests
 {
+
+// For a new process: it ends with the one that made it, even if that crashes. Otherwise ctest would wait for it, since
+// it holds the output of the test.
+inline void end_with_parent(pid_t parent)
+{
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent)
+        ::_exit(127);
+}
 
 struct Ending
 {
@@ -41,9 +52,11 @@ public:
             pointers.push_back(argument.data());
         pointers.push_back(nullptr);
         const std::string errors = errors_.string();
+        const pid_t parent = ::getpid();
         process_ = ::fork();
         if (process_ != 0)
             return;
+        end_with_parent(parent);
         ::unsetenv("DISPLAY");
         ::unsetenv("WAYLAND_DISPLAY");
         ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
@@ -56,11 +69,12 @@ public:
 
     ~ViewerProcess()
     {
-        if (process_ > 0)
-        {
-            ::kill(process_, SIGKILL);
-            (void)wait();
-        }
+        if (process_ <= 0)
+            return;
+        const Ending ending = kill();
+        if (std::uncaught_exceptions() > 0) // a requirement failed
+            MESSAGE("the viewer ended with exit code ", ending.exit_code, ", signal ", ending.signal, ": ",
+                    ending.errors);
     }
     ViewerProcess(const ViewerProcess&) = delete;
     ViewerProcess& operator=(const ViewerProcess&) = delete;
@@ -88,6 +102,13 @@ public:
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
         return false;
+    }
+
+    // SIGKILL, unless it has ended by itself.
+    Ending kill()
+    {
+        send(SIGKILL);
+        return wait();
     }
 
     Ending wait()

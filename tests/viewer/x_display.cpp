@@ -21,9 +21,11 @@ XServer::XServer()
     std::array<int, 2> ends{};
     if (::pipe(ends.data()) != 0)
         return;
+    const pid_t parent = ::getpid();
     process_ = ::fork();
     if (process_ == 0)
     {
+        end_with_parent(parent);
         ::close(ends[0]);
         ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
         const std::string end = std::to_string(ends[1]);
@@ -51,6 +53,8 @@ XServer::~XServer()
 XWindow::XWindow(const XServer& server, std::string title_start)
     : display_(XOpenDisplay(server.name().c_str())), title_start_(std::move(title_start))
 {
+    // A window may go while it is asked for: the requests fail, and Xlib would end the program.
+    XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
 }
 
 XWindow::~XWindow()
