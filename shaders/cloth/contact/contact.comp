@@ -93,6 +93,7 @@ float slip_time(Motion motion) { return drift_time(is_verlet(cloths[motion.cloth
 #include "contact/feature_hold.glsl"
 #include "contact/proposals.glsl"
 #include "contact/response.glsl"
+#include "contact/limit_friction.glsl"
 
 // m: a vertex this close to the offset surface rests on it. Rounding moves both, more where triangles are long. For a
 // plane only rounding along its normal counts.
@@ -271,7 +272,11 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
     state.drive = Drive(n, push.substeps > 0 ? dot(surface, n) / seconds(push.substeps) : 0);
     if (contact.start < 0)
         motion.v -= dot(motion.v - surface / seconds(push.substeps), n) * n; // it leaves the inside without a velocity of its own
-    respond(motion, touched, lift_of(contact, cloth.thickness));
+    const float lift = lift_of(contact, cloth.thickness);
+    if (push.limited_only != 0)
+        motion.displacement -= held_after_limit(motion.displacement, n, k_vertex_pressing * max(lift, 0),
+                                                vec2(touched.friction.at_rest, touched.friction.kinetic));
+    respond(motion, touched, lift);
 }
 
 // Responses to several surfaces, or to one surface in a narrow gap, can push a vertex through another surface. A second

@@ -212,7 +212,10 @@ void find_change()
         return;
     select_collider(response.collider);
     friction = find_friction();
-    add_friction();
+    if (push.limited_only != 0)
+        add_limit_friction();
+    else
+        add_friction();
 }
 
 // Holds the motion within the vertex's guard.

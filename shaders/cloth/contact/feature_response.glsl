@@ -5,6 +5,8 @@
 #ifndef VOILE_FEATURE_RESPONSE_GLSL
 #define VOILE_FEATURE_RESPONSE_GLSL
 
+#include "contact/limit_friction.glsl"
+
 // Edges closer to parallel than this sine have no direction across.
 const float k_parallel = 0.03;
 // A cosine: a direction this far beyond the limit is inside, whatever rounding does.
@@ -162,8 +164,7 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
 // results would depend on rounding.
 float friction_fraction(float pressed, float speed)
 {
-    const float slips = min(2 * max(speed - friction.x * pressed, 0), max(speed - friction.y * pressed, 0));
-    return 1 - slips / max(speed, 1e-30);
+    return 1 - slip_distance(speed, pressed, friction.x, friction.y) / max(speed, 1e-30);
 }
 
 // Where a feature and a piece of cloth touch.
@@ -271,6 +272,15 @@ void add_friction()
     const float least = min(1, most * seconds(push.substeps) / max(length(shifted), 1e-30));
     response.shift += mix(time * slowing, -slid - fraction * least * shifted, slow);
     response.change += (pressed - found) * n + mix(slowing, -fraction * v_t, slow);
+}
+
+// The same after the strain limit, which changes positions alone.
+void add_limit_friction()
+{
+    const float lift = length(response.shift);
+    if (lift > 0)
+        response.shift -= held_after_limit(displacement(self.earlier, self.proposed), response.shift / lift,
+                                           k_feature_pressing * lift, friction);
 }
 
 // The larger of two changes, plus the part of the other one that it lacks in that direction.

@@ -224,6 +224,7 @@ struct FeaturePush
     uint kicks;            // substeps since the last contact pass
     uint pass;             // counted since near features were listed
     uint traversal_word;   // of the sizes of the batch's traversals
+    uint limited_only;     // 1: after the strain limit, when no time passes
 };
 
 VOILE_SHARED_END

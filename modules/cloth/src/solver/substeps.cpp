@@ -270,7 +270,8 @@ void BatchRecorder::record_features(uint32_t substep)
                                    solver_.options.tuning.feature_threads,
                                    interval.count,
                                    feature_passes_++,
-                                   batch_ * VOILE_TRAVERSAL_WORDS};
+                                   batch_ * VOILE_TRAVERSAL_WORDS,
+                                   substep == substeps_ ? 1u : 0u};
     const bool moving = solver_.passes.moving;
     const size_t begins = proposal(substep);
     const size_t votes = context_.history.depenetration_step % 2;
