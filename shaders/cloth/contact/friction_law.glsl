@@ -19,7 +19,7 @@ float slip_speed(float speed, float normal_impulse, float static_friction, float
     return min(beyond_static * k_slip_range / (k_slip_range - fall), kinetic);
 }
 
-// The same for a displacement, m, by a pass in which no time goes by. `normal`: m, what contact took of it.
+// The same without a range, for a speed or a displacement. `normal`: what contact takes of it, in the same unit.
 float slip_distance(float distance, float normal, float static_friction, float kinetic_friction)
 {
     return min(2 * max(distance - static_friction * normal, 0), max(distance - kinetic_friction * normal, 0));
