@@ -274,7 +274,7 @@ void resolve_contact(inout Motion motion, uint c, bool path_only, ClothContact c
         motion.v -= dot(motion.v - surface / seconds(push.substeps), n) * n; // it leaves the inside without a velocity of its own
     const float lift = lift_of(contact, cloth.thickness);
     if (push.limited_only != 0)
-        motion.displacement -= held_after_limit(motion.displacement, n, k_vertex_pressing * max(lift, 0),
+        motion.displacement -= held_after_limit(motion.displacement, n, max(lift, 0),
                                                 vec2(touched.friction.at_rest, touched.friction.kinetic));
     respond(motion, touched, lift);
 }

@@ -7,10 +7,8 @@
 #ifndef VOILE_LIMIT_FRICTION_GLSL
 #define VOILE_LIMIT_FRICTION_GLSL
 
-// The tension presses within the substeps, too, and before the passes have shortened what is too long: more than the lift
-// tells. With 1 silk of 1.5 m creeps off a ball of 0.35 m, in 8 substeps per step.
-const float k_vertex_pressing = 2;
-// The pieces around a vertex press on features together, but it takes the largest of their lifts. With 1 or 2 silk creeps.
+// The pieces around a vertex press on features together, but it takes the largest of their lifts. With 1 silk of 1.5 m creeps
+// off a ball of 0.35 m, in 8 substeps per step.
 const float k_feature_pressing = 4;
 
 // m: what friction takes of a displacement, m, on a surface with the normal n. `pressed`: m, along n; `friction`: static
