@@ -164,7 +164,7 @@ FeatureContact feature_contact(Feature feature, vec3 before, float from, vec3 no
 // results would depend on rounding.
 float friction_fraction(float pressed, float speed)
 {
-    return 1 - slip_distance(speed, pressed, friction.x, friction.y) / max(speed, 1e-30);
+    return friction_fraction(pressed, speed, friction);
 }
 
 // Where a feature and a piece of cloth touch.

@@ -19,10 +19,12 @@ float slip_speed(float speed, float normal_impulse, float static_friction, float
     return min(beyond_static * k_slip_range / (k_slip_range - fall), kinetic);
 }
 
-// The same without a range, for a speed or a displacement. `normal`: what contact takes of it, in the same unit.
-float slip_distance(float distance, float normal, float static_friction, float kinetic_friction)
+// The fraction that friction, static and kinetic, takes of a slip, without a range. `normal`: what contact takes across the
+// surface, in the same unit: m/s or m.
+float friction_fraction(float normal, float slip, vec2 friction)
 {
-    return min(2 * max(distance - static_friction * normal, 0), max(distance - kinetic_friction * normal, 0));
+    const float slips = min(2 * max(slip - friction.x * normal, 0), max(slip - friction.y * normal, 0));
+    return 1 - slips / max(slip, 1e-30);
 }
 
 #endif

@@ -16,8 +16,7 @@ const float k_feature_pressing = 4;
 vec3 held_after_limit(vec3 moved, vec3 n, float pressed, vec2 friction)
 {
     const vec3 slid = moved - dot(moved, n) * n;
-    const float distance = length(slid);
-    return (1 - slip_distance(distance, pressed, friction.x, friction.y) / max(distance, 1e-30)) * slid;
+    return friction_fraction(pressed, length(slid), friction) * slid;
 }
 
 #endif
