@@ -65,6 +65,12 @@ Costs costs_of(const voile::OutputOptions& output)
     return {allocator.requests, solver.dispatches({})};
 }
 
+// Bytes of a buffer that needs this many. Where kernels read texels, buffers are a little longer.
+bool is_size_of(VkDeviceSize bytes, VkDeviceSize needed)
+{
+    return tests::device().context().texel_reads ? bytes >= needed && bytes < needed + 768 : bytes == needed;
+}
+
 std::vector<glm::uvec3> indices(ClothHarness& harness, voile::ClothId cloth)
 {
     const voile::VertexStreams streams = harness.solver.vertices(cloth);
@@ -82,8 +88,8 @@ TEST_CASE("without options the vertex streams cost no memory and no dispatch")
     CHECK_FALSE(off.requests.contains("cloth previous_positions"));
     CHECK_FALSE(off.requests.contains("cloth indices"));
     CHECK(on.requests.size() == off.requests.size() + 2);
-    CHECK(on.requests.at("cloth previous_positions").bytes == 81 * sizeof(glm::vec4));
-    CHECK(on.requests.at("cloth indices").bytes == 128 * sizeof(glm::uvec3));
+    CHECK(is_size_of(on.requests.at("cloth previous_positions").bytes, 81 * sizeof(glm::vec4)));
+    CHECK(is_size_of(on.requests.at("cloth indices").bytes, 128 * sizeof(glm::uvec3)));
     for (const auto& entry : off.requests) // clang 14 captures no structured binding, as CAPTURE does
     {
         const auto& name = entry.first;

@@ -35,7 +35,7 @@ void UploadBatch::record(VkCommandBuffer cmd)
         .barrier(VK_PIPELINE_STAGE_2_COPY_BIT_KHR, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR,
                  VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT_KHR | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR,
                  VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT_KHR | VK_ACCESS_2_INDEX_READ_BIT_KHR |
-                     VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR);
+                     VK_ACCESS_2_SHADER_READ_BIT_KHR);
 }
 
 } // namespace voile::engine

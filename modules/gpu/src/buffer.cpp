@@ -17,6 +17,13 @@ std::string size_text(VkDeviceSize bytes)
     return std::to_string((bytes + (1u << 20) - 1) >> 20) + " MiB";
 }
 
+// A size that llvmpipe compiles no other kernel for. It compiles one for each combination of whether a texel buffer's
+// size is a power of two, and whether its second byte is 0 (lp_sampler_static_texture_state of Mesa 22.3).
+VkDeviceSize alike(VkDeviceSize bytes)
+{
+    return (bytes + 511) / 512 * 512 + 256;
+}
+
 } // namespace
 
 Buffer::Buffer(std::shared_ptr<BufferAllocator> allocator, const BufferMemory& memory, VkDeviceSize size)
@@ -70,7 +77,13 @@ Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceS
         return Error{std::string("buffer \"") + name + "\" needs " + size_text(size) + ", the device binds at most " +
                      size_text(context.max_buffer_bytes)};
 
-    const auto created = context.buffers->create_buffer({size, usage, memory, name});
+    BufferRequest request{size, usage, memory, name};
+    if (context.texel_reads && (usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0)
+    {
+        request.bytes = alike(size);
+        request.usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    }
+    const auto created = context.buffers->create_buffer(request);
     if (!created)
         return Error{std::string("buffer \"") + name + "\" of " + size_text(size) +
                      " cannot be made: " + created.error().message};

@@ -29,6 +29,21 @@ VkDeviceSize largest_storage_buffer(const Handles& handles, const VkPhysicalDevi
     return std::min<VkDeviceSize>(largest_heap, limits.maxStorageBufferRange);
 }
 
+// Whether the driver loads from storage buffers one component of one thread at a time.
+bool loads_scalars(const Handles& handles)
+{
+    const auto get = instance_function<PFN_vkGetPhysicalDeviceProperties2>(handles, "vkGetPhysicalDeviceProperties2");
+    if (get == nullptr)
+        return false;
+    VkPhysicalDeviceDriverProperties driver{};
+    driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &driver;
+    get(handles.physical_device, &properties);
+    return driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+}
+
 } // namespace
 
 Result<Context> create_context(const Handles& handles, bool device_addresses)
@@ -62,7 +77,8 @@ Result<Context> create_context(const Handles& handles, bool device_addresses)
         handles.physical_device, &properties);
     context.limits = properties.limits;
     context.device_type = properties.deviceType;
-    context.max_buffer_bytes = largest_storage_buffer(handles, properties.limits);
+    context.texel_reads = loads_scalars(handles);
+    context.max_buffer_bytes = largest_storage_buffer(handles, properties.limits) - (context.texel_reads ? 1024 : 0);
 
     // An instance without VK_EXT_debug_utils returns null. Labels and names then do nothing.
     context.set_object_name =

@@ -1,6 +1,8 @@
 // Kernel and BindingPool: compute pipelines over buffers, and their descriptor sets.
 #include "voile/gpu/kernel.hpp"
 
+#include "texel_reads.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -25,9 +27,12 @@ std::string described(uint32_t number, const std::string& name)
 
 VkDescriptorType type_of(const ShaderBinding& binding)
 {
+    if (binding.texel_bytes > 0)
+        return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     return binding.uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
+// With those that are read as texels.
 uint32_t count_storage_buffers(const std::vector<ShaderBinding>& bindings)
 {
     return static_cast<uint32_t>(std::ranges::count(bindings, false, &ShaderBinding::uniform));
@@ -57,13 +62,13 @@ VkResult create_layouts(const Context& context, const ShaderInterface& shader, V
     return context.fn.vkCreatePipelineLayout(context.device(), &info, nullptr, layout);
 }
 
-VkResult create_pipeline(const Context& context, const KernelDescription& description, VkPipelineLayout layout,
-                         VkPipeline* pipeline)
+VkResult create_pipeline(const Context& context, const KernelDescription& description, std::span<const uint32_t> spirv,
+                         VkPipelineLayout layout, VkPipeline* pipeline)
 {
     VkShaderModuleCreateInfo module_info{};
     module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    module_info.codeSize = description.spirv.size_bytes();
-    module_info.pCode = description.spirv.data();
+    module_info.codeSize = spirv.size_bytes();
+    module_info.pCode = spirv.data();
     VkShaderModule module = VK_NULL_HANDLE;
     VkResult status = context.fn.vkCreateShaderModule(context.device(), &module_info, nullptr, &module);
     if (status != VK_SUCCESS)
@@ -190,6 +195,10 @@ Result<Kernel> Kernel::create(const Context& context, const KernelDescription& d
         return shader.error();
     if (auto limits = check(context.limits, description, shader.value()); !limits)
         return limits.error();
+    const TexelReads texels = context.texel_reads ? texel_reads(description.spirv) : TexelReads{};
+    for (ShaderBinding& binding : shader.value().bindings)
+        if (const auto found = texels.texel_bytes.find(binding.number); found != texels.texel_bytes.end())
+            binding.texel_bytes = found->second;
     Kernel kernel;
     kernel.context_ = context;
     kernel.name_ = description.name;
@@ -198,7 +207,8 @@ Result<Kernel> Kernel::create(const Context& context, const KernelDescription& d
     kernel.bindings_ = std::move(shader.value().bindings);
     if (status != VK_SUCCESS)
         return failed(description, "layout", status);
-    status = create_pipeline(context, description, kernel.layout_, &kernel.pipeline_);
+    status = create_pipeline(context, description, texels.spirv.empty() ? description.spirv : texels.spirv,
+                             kernel.layout_, &kernel.pipeline_);
     if (status != VK_SUCCESS)
         return failed(description, "pipeline", status);
     set_name(context, VK_OBJECT_TYPE_PIPELINE, kernel.pipeline_, description.name);
@@ -209,6 +219,8 @@ Result<Kernel> Kernel::create(const Context& context, const KernelDescription& d
 
 BindingPool::~BindingPool()
 {
+    for (const VkBufferView view : views_)
+        context_.fn.vkDestroyBufferView(context_.device(), view, nullptr);
     if (pool_ != VK_NULL_HANDLE)
         context_.fn.vkDestroyDescriptorPool(context_.device(), pool_, nullptr);
 }
@@ -222,6 +234,7 @@ BindingPool& BindingPool::operator=(BindingPool&& other) noexcept
 {
     std::swap(context_, other.context_);
     std::swap(pool_, other.pool_);
+    std::swap(views_, other.views_);
     std::swap(sets_left_, other.sets_left_);
     std::swap(buffers_left_, other.buffers_left_);
     std::swap(uniform_buffers_left_, other.uniform_buffers_left_);
@@ -231,12 +244,15 @@ BindingPool& BindingPool::operator=(BindingPool&& other) noexcept
 Result<BindingPool> BindingPool::create(const Context& context, uint32_t max_sets, uint32_t max_buffers,
                                         uint32_t max_uniform_buffers)
 {
-    const std::array<VkDescriptorPoolSize, 2> sizes{
-        {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, max_buffers}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, max_uniform_buffers}}};
+    std::vector<VkDescriptorPoolSize> sizes{{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, max_buffers}};
+    if (max_uniform_buffers > 0) // no size may be 0
+        sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, max_uniform_buffers});
+    if (context.texel_reads) // each buffer may be either
+        sizes.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, max_buffers});
     VkDescriptorPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     info.maxSets = max_sets;
-    info.poolSizeCount = max_uniform_buffers > 0 ? 2 : 1; // no size may be 0
+    info.poolSizeCount = static_cast<uint32_t>(sizes.size());
     info.pPoolSizes = sizes.data();
     BindingPool result;
     result.context_ = context;
@@ -268,6 +284,24 @@ Result<void> check_buffers(const Kernel& kernel, std::span<const BufferBinding> 
 
 } // namespace
 
+Result<VkBufferView> BindingPool::create_view(const BufferBinding& given, uint32_t texel_bytes)
+{
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = given.buffer;
+    info.format = texel_bytes == 4   ? VK_FORMAT_R32_UINT
+                  : texel_bytes == 8 ? VK_FORMAT_R32G32_UINT
+                                     : VK_FORMAT_R32G32B32A32_UINT;
+    info.offset = given.offset;
+    info.range = given.bytes;
+    VkBufferView view = VK_NULL_HANDLE;
+    const VkResult status = context_.fn.vkCreateBufferView(context_.device(), &info, nullptr, &view);
+    if (status != VK_SUCCESS)
+        return Error{"view of binding " + std::to_string(given.number) + ": " + to_string(status)};
+    views_.push_back(view);
+    return view;
+}
+
 Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const BufferBinding> buffers)
 {
     if (auto complete = check_buffers(kernel, buffers); !complete)
@@ -294,17 +328,28 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const 
 
     std::vector<VkDescriptorBufferInfo> infos;
     infos.reserve(buffers.size());
+    std::vector<VkBufferView> views;
+    views.reserve(buffers.size());
     std::vector<VkWriteDescriptorSet> writes;
     for (const BufferBinding& given : buffers)
     {
+        const ShaderBinding& binding = *std::ranges::find(bindings, given.number, &ShaderBinding::number);
         infos.push_back({given.buffer, given.offset, given.bytes});
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = set;
         write.dstBinding = given.number;
         write.descriptorCount = 1;
-        write.descriptorType = type_of(*std::ranges::find(bindings, given.number, &ShaderBinding::number));
+        write.descriptorType = type_of(binding);
         write.pBufferInfo = &infos.back();
+        if (binding.texel_bytes > 0)
+        {
+            const auto view = create_view(given, binding.texel_bytes);
+            if (!view)
+                return Error{std::string("kernel \"") + kernel.name() + "\": " + view.error().message};
+            views.push_back(view.value());
+            write.pTexelBufferView = &views.back();
+        }
         writes.push_back(write);
     }
     context_.fn.vkUpdateDescriptorSets(context_.device(), static_cast<uint32_t>(writes.size()), writes.data(), 0,

@@ -1,6 +1,8 @@
 // reflect: the instructions before the first function are followed one by one, as they stand before their first use.
 #include "voile/gpu/shader_interface.hpp"
 
+#include "spirv.hpp"
+
 #include <algorithm>
 #include <unordered_map>
 #include <utility>
@@ -11,56 +13,7 @@ namespace voile::gpu
 namespace
 {
 
-// Of the SPIR-V specification, section 3.
-enum Opcode : uint32_t
-{
-    k_name = 5,
-    k_type_bool = 20,
-    k_type_int = 21,
-    k_type_float = 22,
-    k_type_vector = 23,
-    k_type_matrix = 24,
-    k_type_array = 28,
-    k_type_runtime_array = 29,
-    k_type_struct = 30,
-    k_type_pointer = 32,
-    k_constant = 43,
-    k_constant_composite = 44,
-    k_spec_constant = 50,
-    k_spec_constant_composite = 51,
-    k_spec_constant_op = 52,
-    k_function = 54,
-    k_variable = 59,
-    k_decorate = 71,
-    k_member_decorate = 72,
-    k_composite_extract = 81,
-    k_integer_add = 128,
-    k_integer_subtract = 130,
-    k_integer_multiply = 132,
-    k_unsigned_divide = 134,
-    k_signed_divide = 135,
-    k_shift_right = 194,
-    k_shift_left = 196,
-};
-enum Decoration : uint32_t
-{
-    k_spec_id = 1,
-    k_array_stride = 6,
-    k_matrix_stride = 7,
-    k_non_writable = 24,
-    k_non_readable = 25,
-    k_binding = 33,
-    k_descriptor_set = 34,
-    k_offset = 35,
-};
-enum StorageClass : uint32_t
-{
-    k_uniform = 2,
-    k_workgroup = 4,
-    k_push_constant = 9,
-    k_storage_buffer = 12,
-};
-constexpr size_t k_header_words = 5;
+using namespace spirv;
 
 struct Size
 {
@@ -341,18 +294,17 @@ Result<ShaderInterface> Reader::finish()
 
 } // namespace
 
-Result<ShaderInterface> reflect(std::span<const uint32_t> spirv, std::span<const SpecializationConstant> specialization)
+Result<ShaderInterface> reflect(std::span<const uint32_t> code, std::span<const SpecializationConstant> specialization)
 {
     Reader reader(specialization);
-    for (size_t at = k_header_words; at < spirv.size();)
-    {
-        const uint32_t length = spirv[at] >> 16;
-        const uint32_t opcode = spirv[at] & 0xffff;
-        if (length == 0 || at + length > spirv.size() || opcode == k_function)
-            break; // the driver refuses what is not SPIR-V
-        reader.read(opcode, spirv.subspan(at + 1, length - 1));
-        at += length;
-    }
+    spirv::for_each_instruction(code,
+                                [&](uint32_t opcode, std::span<const uint32_t> words)
+                                {
+                                    if (opcode == k_function)
+                                        return false;
+                                    reader.read(opcode, words.subspan(1));
+                                    return true;
+                                });
     return reader.finish();
 }
 

@@ -25,7 +25,7 @@ namespace voile
 // Where passes read and write buffers.
 inline constexpr VkPipelineStageFlags2KHR k_compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT_KHR;
 inline constexpr VkAccessFlags2KHR k_storage =
-    VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
+    VK_ACCESS_2_SHADER_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR;
 
 // Changes by the host since the last record; the next one records them at its beginning. Changes of cloths and
 // colliders that are not uploaded yet wait for their upload.

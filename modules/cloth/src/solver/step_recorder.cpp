@@ -94,7 +94,7 @@ void StepRecorder::keep_state(const StateBuffers& kept, bool velocities)
     if (velocities)
         copy(k_state.velocities, kept.velocities, sizeof(glm::vec4));
     recorder_.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
-                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+                      VK_ACCESS_2_SHADER_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
 }
 
 void StepRecorder::record_limit_guard()

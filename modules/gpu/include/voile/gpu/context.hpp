@@ -23,6 +23,7 @@ struct Context
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceType device_type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     VkDeviceSize max_buffer_bytes = 0; // largest storage buffer that the device can bind and allocate
+    bool texel_reads = false;          // kernels read through uniform texel buffers what they only read: llvmpipe
 
     // VK_EXT_debug_utils, null where the instance does not have it: labels and names are then left out.
     PFN_vkSetDebugUtilsObjectNameEXT set_object_name = nullptr;

@@ -27,6 +27,7 @@ namespace voile::gpu
     use(vkCmdSetEvent);                                                                                                \
     use(vkCmdUpdateBuffer);                                                                                            \
     use(vkCmdWriteTimestamp2KHR);                                                                                      \
+    use(vkCreateBufferView);                                                                                           \
     use(vkCreateCommandPool);                                                                                          \
     use(vkCreateComputePipelines);                                                                                     \
     use(vkCreateDescriptorPool);                                                                                       \
@@ -35,6 +36,7 @@ namespace voile::gpu
     use(vkCreatePipelineLayout);                                                                                       \
     use(vkCreateQueryPool);                                                                                            \
     use(vkCreateShaderModule);                                                                                         \
+    use(vkDestroyBufferView);                                                                                          \
     use(vkDestroyCommandPool);                                                                                         \
     use(vkDestroyDescriptorPool);                                                                                      \
     use(vkDestroyDescriptorSetLayout);                                                                                 \

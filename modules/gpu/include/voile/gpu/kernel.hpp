@@ -92,9 +92,12 @@ public:
     }
 
 private:
+    Result<VkBufferView> create_view(const BufferBinding& given, uint32_t texel_bytes);
+
     Context context_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     uint32_t sets_left_ = 0;
+    std::vector<VkBufferView> views_; // of texels
     uint32_t buffers_left_ = 0;
     uint32_t uniform_buffers_left_ = 0;
 };

@@ -12,7 +12,8 @@
 namespace voile::gpu
 {
 
-// A storage buffer or a uniform buffer of descriptor set 0.
+// A storage buffer or a uniform buffer of descriptor set 0. Kernels read some storage buffers as uniform texel buffers
+// on devices where that is faster (Context::texel_reads).
 struct ShaderBinding
 {
     uint32_t number = 0;
@@ -22,6 +23,7 @@ struct ShaderBinding
     uint32_t stride =
         0; // bytes per entry of the array that it ends with; 0: it ends with none. Of a uniform buffer all
     bool uniform = false;
+    uint32_t texel_bytes = 0; // 4, 8 or 16: a uniform texel buffer, R32_UINT, R32G32_UINT or R32G32B32A32_UINT; 0: none
 };
 
 struct ShaderConstant
