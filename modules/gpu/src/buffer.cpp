@@ -80,7 +80,7 @@ Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceS
     BufferRequest request{size, usage, memory, name};
     if (context.texel_reads && (usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) != 0)
     {
-        request.bytes = alike(size);
+        request.bytes = std::max(size, std::min(alike(size), context.max_buffer_bytes));
         request.usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     }
     const auto created = context.buffers->create_buffer(request);

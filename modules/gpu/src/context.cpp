@@ -78,7 +78,7 @@ Result<Context> create_context(const Handles& handles, bool device_addresses)
     context.limits = properties.limits;
     context.device_type = properties.deviceType;
     context.texel_reads = loads_scalars(handles);
-    context.max_buffer_bytes = largest_storage_buffer(handles, properties.limits) - (context.texel_reads ? 1024 : 0);
+    context.max_buffer_bytes = largest_storage_buffer(handles, properties.limits);
 
     // An instance without VK_EXT_debug_utils returns null. Labels and names then do nothing.
     context.set_object_name =

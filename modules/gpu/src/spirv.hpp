@@ -11,6 +11,7 @@ namespace voile::gpu::spirv
 enum Opcode : uint32_t
 {
     k_name = 5,
+    k_extended_instruction = 12,
     k_capability = 17,
     k_type_bool = 20,
     k_type_int = 21,

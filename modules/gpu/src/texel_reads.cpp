@@ -3,6 +3,7 @@
 #include "spirv.hpp"
 #include "texel_buffers.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace voile::gpu
@@ -39,6 +40,8 @@ private:
     void write_functions();
     void write_declarations(std::vector<uint32_t>& to);
     void write_load(Words words);
+    // Whether a declaration is one of a buffer, and does not suit its texels.
+    [[nodiscard]] bool is_replaced(uint32_t opcode, Words words) const;
     // The place of a member, an element, a column or a component, by a constant and by an id.
     [[nodiscard]] Place inner(Place place, uint32_t index) const;
     Place inner_at(Place place, uint32_t id, uint32_t texel_bytes);
@@ -244,6 +247,16 @@ void Rewriter::write_functions()
                          });
 }
 
+bool Rewriter::is_replaced(uint32_t opcode, Words words) const
+{
+    const auto is_buffer = [&](uint32_t id) { return found_.buffers.contains(id); };
+    if (opcode == k_extended_instruction) // debug information
+        return std::ranges::any_of(words.subspan(5), is_buffer);
+    if (opcode == k_decorate)
+        return is_buffer(words[1]) && words[2] != k_binding && words[2] != k_descriptor_set;
+    return opcode == k_variable && is_buffer(words[2]);
+}
+
 void Rewriter::write_declarations(std::vector<uint32_t>& to)
 {
     constexpr uint32_t k_sampled_buffer = 46;
@@ -256,10 +269,7 @@ void Rewriter::write_declarations(std::vector<uint32_t>& to)
                                  return false;
                              if (std::exchange(is_first, false))
                                  to.insert(to.end(), {2u << 16 | k_capability, k_sampled_buffer});
-                             const bool is_replaced = (opcode == k_variable && found_.buffers.contains(words[2])) ||
-                                                      (opcode == k_decorate && found_.buffers.contains(words[1]) &&
-                                                       words[2] != k_binding && words[2] != k_descriptor_set);
-                             if (!is_replaced)
+                             if (!is_replaced(opcode, words))
                                  to.insert(to.end(), words.begin(), words.end());
                              return true;
                          });
