@@ -7,7 +7,6 @@
 #include "voile/gpu/recorder.hpp"
 
 #include <array>
-#include <functional>
 #include <random>
 #include <vector>
 

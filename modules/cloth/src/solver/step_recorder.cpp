@@ -93,8 +93,7 @@ void StepRecorder::keep_state(const StateBuffers& kept, bool velocities)
     copy(k_state.residuals, kept.residuals, sizeof(glm::uvec2));
     if (velocities)
         copy(k_state.velocities, kept.velocities, sizeof(glm::vec4));
-    recorder_.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute,
-                      VK_ACCESS_2_SHADER_READ_BIT_KHR | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT_KHR);
+    recorder_.barrier(k_copy, VK_ACCESS_2_TRANSFER_WRITE_BIT_KHR, k_compute, k_storage);
 }
 
 void StepRecorder::record_limit_guard()
