@@ -6,7 +6,10 @@
 set(VOILE_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_shader.cmake)
 
 function(voile_add_shaders)
-    cmake_parse_arguments(ARG "" "TARGET;NAMESPACE;FOLDER" "SHADERS" ${ARGN})
+    cmake_parse_arguments(ARG "" "TARGET;NAMESPACE;FOLDER;ENVIRONMENT" "SHADERS" ${ARGN})
+    if(NOT ARG_ENVIRONMENT)
+        set(ARG_ENVIRONMENT vulkan1.2)
+    endif()
     set(generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
     file(MAKE_DIRECTORY ${generated}/spirv)
     set(declarations "")
@@ -19,9 +22,9 @@ function(voile_add_shaders)
         set(cpp ${generated}/${symbol}.cpp)
         add_custom_command(
             OUTPUT ${spirv}
-            COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env vulkan1.2 -I${ARG_FOLDER}
+            COMMAND ${GLSLANG_VALIDATOR} --quiet -V --target-env ${ARG_ENVIRONMENT} -I${ARG_FOLDER}
                     $<$<CONFIG:Debug>:-gVS> --depfile ${spirv}.d -o ${spirv} ${source}
-            COMMAND ${SPIRV_VAL} --target-env vulkan1.2 ${spirv}
+            COMMAND ${SPIRV_VAL} --target-env ${ARG_ENVIRONMENT} ${spirv}
             DEPENDS ${source}
             DEPFILE ${spirv}.d
             COMMENT "Compiling shader ${shader}"

@@ -38,10 +38,12 @@ layout(set = 0, binding = 1, std430) readonly buffer Narrows { Narrow narrows[];
 layout(set = 0, binding = 2, std430) readonly buffer Words { float words[]; };
 layout(set = 0, binding = 3, std430) readonly buffer Turns { mat4 turns[]; };
 layout(set = 0, binding = 4, std430) readonly buffer Splits { Split splits[]; };
-layout(set = 0, binding = 5, std430) readonly buffer Counted { uvec4 count; uvec4 counted[]; }; // two members
-layout(set = 0, binding = 6, std430) buffer Changed { uvec4 changed[]; };                       // not readonly
-layout(set = 0, binding = 7, std430) readonly buffer Measured { uvec2 measured[]; };            // its length is asked for
-layout(set = 0, binding = 8, std430) writeonly buffer Answers { uint answers[]; };
+layout(set = 0, binding = 5, std430) readonly buffer Counted { uvec4 count; uvec4 counted[]; };
+layout(set = 0, binding = 6, std430) buffer Changed { uvec4 changed[]; };            // texels of what is not written
+layout(set = 0, binding = 7, std430) readonly buffer Measured { uvec2 measured[]; }; // its length is asked for
+layout(set = 0, binding = 8, std430) buffer Written { uvec4 written[]; };            // one component is read where it is written
+layout(set = 0, binding = 9, std430) readonly buffer Padded { uvec3 padded[]; };     // no texel that divides its end holds it
+layout(set = 0, binding = 10, std430) writeonly buffer Answers { uint answers[]; };
 
 layout(push_constant, std430) uniform Push { uint words_per_thread; };
 
@@ -85,7 +87,13 @@ void main()
     put(splits[i].a);
     put(splits[i].b[i % 5]);
     put(counted[i].z);
-    put(changed[i].y);
+    put(count.w);
+    changed[i].w = i;
+    put(changed[i ^ 1].y);
     put(measured[i].x);
     put(measured.length() > i ? measured[i].y : 0);
+    written[i].x = i;
+    put(written[i].x);
+    put(written[i].y);
+    put(padded[i].z);
 }

@@ -6,6 +6,7 @@
 #include "buffer_table.hpp"
 #include "solver/buffer_declarations.hpp"
 #include "solver/descriptor_sets.hpp"
+#include "test_lifetime_shaders.hpp"
 
 #include "shared/contact_layout.h"
 
@@ -149,6 +150,33 @@ TEST_CASE("a kernel's interface is the same without names in its SPIR-V")
     }
     description.specialization.pop_back();
     CHECK(reason(voile::gpu::reflect(description)) == "kernel \"contact\": specialization constant 7 has no value");
+}
+
+TEST_CASE("an array of buffers is an error")
+{
+    CHECK(reason(voile::gpu::reflect({"array", tests::shaders::k_buffer_array_comp, {}})) ==
+          "kernel \"array\": binding 3 is an array of buffers");
+}
+
+TEST_CASE("literal sizes of a workgroup count, and push constants end at a word")
+{
+    const voile::gpu::KernelDescription description{"large", tests::shaders::k_large_workgroup_comp, {}};
+    const auto shader = voile::engine::take(voile::gpu::reflect(description));
+    CHECK(shader.workgroup == std::array<uint32_t, 3>{32, 32, 2});
+    CHECK(shader.push_bytes == 8);
+    VkPhysicalDeviceLimits limits = tests::solver_context().limits;
+    limits.maxComputeWorkGroupInvocations = 2048;
+    limits.maxComputeSharedMemorySize = 8192;
+    CHECK(reason(voile::gpu::check_limits(limits, description)) == "accepted");
+    limits.maxComputeSharedMemorySize = 8191;
+    CHECK(reason(voile::gpu::check_limits(limits, description)) ==
+          "kernel \"large\" takes 8192 bytes of shared memory with a workgroup of 32 x 32 x 2, the device has 8191");
+    limits.maxComputeWorkGroupInvocations = 2047;
+    CHECK(reason(voile::gpu::check_limits(limits, description)) ==
+          "kernel \"large\" has a workgroup of 32 x 32 x 2, 2048 threads, the device allows 2047");
+    limits.maxComputeWorkGroupSize[2] = 1;
+    CHECK(reason(voile::gpu::check_limits(limits, description)) ==
+          "kernel \"large\" has a workgroup of 32 x 32 x 2, the device allows 1 to 1 in z");
 }
 
 TEST_CASE_FIXTURE(Bindings, "the block of each binding has the binding's name")

@@ -25,10 +25,14 @@ std::string described(uint32_t number, const std::string& name)
     return std::to_string(number) + (name.empty() ? "" : " \"" + name + '"');
 }
 
+// Its storage buffer or uniform buffer is a descriptor, too.
+bool has_buffer(const ShaderBinding& binding)
+{
+    return binding.texel_bytes == 0 || binding.texel_number != binding.number;
+}
+
 VkDescriptorType type_of(const ShaderBinding& binding)
 {
-    if (binding.texel_bytes > 0)
-        return VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
     return binding.uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
@@ -43,7 +47,13 @@ VkResult create_layouts(const Context& context, const ShaderInterface& shader, V
 {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
     for (const ShaderBinding& binding : shader.bindings)
-        bindings.push_back({binding.number, type_of(binding), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    {
+        if (has_buffer(binding))
+            bindings.push_back({binding.number, type_of(binding), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+        if (binding.texel_bytes > 0)
+            bindings.push_back({binding.texel_number, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 1,
+                                VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    }
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<uint32_t>(bindings.size());
@@ -98,6 +108,37 @@ VkResult create_pipeline(const Context& context, const KernelDescription& descri
     return status;
 }
 
+// "64", "8 x 8 x 1".
+std::string described(const std::array<uint32_t, 3>& workgroup)
+{
+    std::string text = std::to_string(workgroup[0]);
+    for (size_t axis = 1; axis < 3 && (workgroup[1] > 1 || workgroup[2] > 1); ++axis)
+        text += " x " + std::to_string(workgroup[axis]);
+    return text;
+}
+
+// `name`: of the kernel, the start of a message.
+Result<void> check_workgroup(const VkPhysicalDeviceLimits& limits, const std::string& name,
+                             const std::array<uint32_t, 3>& workgroup)
+{
+    uint64_t threads = 1;
+    for (size_t axis = 0; axis < 3; ++axis)
+    {
+        threads *= workgroup[axis];
+        const uint32_t most = std::min(limits.maxComputeWorkGroupSize[axis], limits.maxComputeWorkGroupInvocations);
+        if (workgroup[axis] == 0 || (workgroup[axis] > most && (axis == 0 || workgroup[axis] > 1)))
+            return Error{name + "has a workgroup of " + described(workgroup) + ", the device allows 1 to " +
+                         std::to_string(most) +
+                         (axis == 0   ? ""
+                          : axis == 1 ? " in y"
+                                      : " in z")};
+    }
+    if (threads > limits.maxComputeWorkGroupInvocations)
+        return Error{name + "has a workgroup of " + described(workgroup) + ", " + std::to_string(threads) +
+                     " threads, the device allows " + std::to_string(limits.maxComputeWorkGroupInvocations)};
+    return {};
+}
+
 Result<void> check(const VkPhysicalDeviceLimits& limits, const KernelDescription& description,
                    const ShaderInterface& shader)
 {
@@ -105,16 +146,12 @@ Result<void> check(const VkPhysicalDeviceLimits& limits, const KernelDescription
     if (shader.push_bytes > limits.maxPushConstantsSize)
         return Error{name + "has " + std::to_string(shader.push_bytes) + " bytes of push constants, the device has " +
                      std::to_string(limits.maxPushConstantsSize)};
-    const auto size = std::ranges::find(description.specialization, 0u, &SpecializationConstant::id);
-    const uint32_t group = size != description.specialization.end() ? size->value : 1;
-    const uint32_t most_threads = std::min(limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations);
-    if (group == 0 || group > most_threads)
-        return Error{name + "has a workgroup of " + std::to_string(group) + ", the device allows 1 to " +
-                     std::to_string(most_threads)};
+    if (auto fits = check_workgroup(limits, name, shader.workgroup); !fits)
+        return fits;
     if (shader.shared_bytes > limits.maxComputeSharedMemorySize)
         return Error{name + "takes " + std::to_string(shader.shared_bytes) +
-                     " bytes of shared memory with a workgroup of " + std::to_string(group) + ", the device has " +
-                     std::to_string(limits.maxComputeSharedMemorySize)};
+                     " bytes of shared memory with a workgroup of " + described(shader.workgroup) +
+                     ", the device has " + std::to_string(limits.maxComputeSharedMemorySize)};
     const uint32_t buffers = count_storage_buffers(shader.bindings);
     const std::string binds = name + "binds " + std::to_string(buffers) + " storage buffers, the device allows ";
     if (buffers > limits.maxPerStageDescriptorStorageBuffers)
@@ -197,8 +234,11 @@ Result<Kernel> Kernel::create(const Context& context, const KernelDescription& d
         return limits.error();
     const TexelReads texels = context.texel_reads ? texel_reads(description.spirv) : TexelReads{};
     for (ShaderBinding& binding : shader.value().bindings)
-        if (const auto found = texels.texel_bytes.find(binding.number); found != texels.texel_bytes.end())
-            binding.texel_bytes = found->second;
+        if (const auto found = texels.bindings.find(binding.number); found != texels.bindings.end())
+        {
+            binding.texel_bytes = found->second.texel_bytes;
+            binding.texel_number = found->second.number;
+        }
     Kernel kernel;
     kernel.context_ = context;
     kernel.name_ = description.name;
@@ -293,7 +333,7 @@ Result<VkBufferView> BindingPool::create_view(const BufferBinding& given, uint32
                   : texel_bytes == 8 ? VK_FORMAT_R32G32_UINT
                                      : VK_FORMAT_R32G32B32A32_UINT;
     info.offset = given.offset;
-    info.range = given.bytes;
+    info.range = given.bytes == VK_WHOLE_SIZE ? given.bytes : given.bytes / texel_bytes * texel_bytes;
     VkBufferView view = VK_NULL_HANDLE;
     const VkResult status = context_.fn.vkCreateBufferView(context_.device(), &info, nullptr, &view);
     if (status != VK_SUCCESS)
@@ -331,26 +371,29 @@ Result<VkDescriptorSet> BindingPool::bind(const Kernel& kernel, std::span<const 
     std::vector<VkBufferView> views;
     views.reserve(buffers.size());
     std::vector<VkWriteDescriptorSet> writes;
+    const auto add_write = [&](uint32_t number, VkDescriptorType type) -> VkWriteDescriptorSet&
+    {
+        VkWriteDescriptorSet& write = writes.emplace_back();
+        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        write.dstSet = set;
+        write.dstBinding = number;
+        write.descriptorCount = 1;
+        write.descriptorType = type;
+        return write;
+    };
     for (const BufferBinding& given : buffers)
     {
         const ShaderBinding& binding = *std::ranges::find(bindings, given.number, &ShaderBinding::number);
         infos.push_back({given.buffer, given.offset, given.bytes});
-        VkWriteDescriptorSet write{};
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = set;
-        write.dstBinding = given.number;
-        write.descriptorCount = 1;
-        write.descriptorType = type_of(binding);
-        write.pBufferInfo = &infos.back();
-        if (binding.texel_bytes > 0)
-        {
-            const auto view = create_view(given, binding.texel_bytes);
-            if (!view)
-                return Error{std::string("kernel \"") + kernel.name() + "\": " + view.error().message};
-            views.push_back(view.value());
-            write.pTexelBufferView = &views.back();
-        }
-        writes.push_back(write);
+        if (has_buffer(binding))
+            add_write(given.number, type_of(binding)).pBufferInfo = &infos.back();
+        if (binding.texel_bytes == 0)
+            continue;
+        const auto view = create_view(given, binding.texel_bytes);
+        if (!view)
+            return Error{std::string("kernel \"") + kernel.name() + "\": " + view.error().message};
+        views.push_back(view.value());
+        add_write(binding.texel_number, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER).pTexelBufferView = &views.back();
     }
     context_.fn.vkUpdateDescriptorSets(context_.device(), static_cast<uint32_t>(writes.size()), writes.data(), 0,
                                        nullptr);

@@ -44,6 +44,7 @@ public:
     Result<ShaderInterface> finish();
 
 private:
+    void read_workgroup();
     uint32_t evaluate(uint32_t operation, std::span<const uint32_t> operands);
     void add_variable(uint32_t pointer, uint32_t id, uint32_t storage);
     Result<void> add_binding(uint32_t pointer, uint32_t id, uint32_t storage);
@@ -136,6 +137,8 @@ Size Reader::size_of(uint32_t id)
     case k_type_int:
     case k_type_float:
         return {type.operands[0] / 8, type.operands[0] / 8};
+    case k_type_pointer: // the address of a buffer
+        return {8, 8};
     case k_type_vector:
     {
         const Size component = size_of(type.operands[0]);
@@ -188,12 +191,14 @@ Result<void> Reader::add_binding(uint32_t pointer, uint32_t id, uint32_t storage
 {
     Decorations& decorations = decorations_[id];
     const uint32_t number = decorations[k_binding];
-    const bool uniform = storage == k_uniform;
-    if ((storage != k_storage_buffer && !uniform) || decorations[k_descriptor_set] != 0)
-        return Error{"binding " + std::to_string(number) + " of set " + std::to_string(decorations[k_descriptor_set]) +
-                     " is no buffer of set 0"};
     const uint32_t block_id = types_[pointer].operands[1];
     const Type& block = types_[block_id];
+    const bool uniform = storage == k_uniform && !decorations_[block_id].contains(k_buffer_block);
+    if ((storage != k_storage_buffer && storage != k_uniform) || decorations[k_descriptor_set] != 0)
+        return Error{"binding " + std::to_string(number) + " of set " + std::to_string(decorations[k_descriptor_set]) +
+                     " is no buffer of set 0"};
+    if (block.opcode != k_type_struct)
+        return Error{"binding " + std::to_string(number) + " is an array of buffers"};
     std::string block_name = name_of(block_id);
     ShaderBinding binding{number, block_name.empty() ? name_of(id) : std::move(block_name), false, false, 0, uniform};
     for (size_t i = 0; i < block.operands.size(); ++i)
@@ -219,7 +224,7 @@ void Reader::add_variable(uint32_t pointer, uint32_t id, uint32_t storage)
         interface_.shared_bytes = aligned(interface_.shared_bytes, size.alignment) + size.bytes;
     }
     else if (storage == k_push_constant)
-        interface_.push_bytes = static_cast<uint32_t>(end_of(type));
+        interface_.push_bytes = static_cast<uint32_t>(aligned(end_of(type), 4));
     else if (decorations_[id].contains(k_binding) && status_)
         status_ = add_binding(pointer, id, storage);
 }
@@ -228,6 +233,10 @@ void Reader::read(uint32_t opcode, std::span<const uint32_t> words)
 {
     switch (opcode)
     {
+    case k_execution_mode: // of the entry point
+        if (words[1] == k_local_size)
+            std::ranges::copy(words.subspan(2, 3), interface_.workgroup.begin());
+        break;
     case k_name:
         names_.emplace_back(words[0], words.subspan(1));
         break;
@@ -277,6 +286,16 @@ void Reader::read(uint32_t opcode, std::span<const uint32_t> words)
     }
 }
 
+// A constant with this decoration overrides the execution mode.
+void Reader::read_workgroup()
+{
+    for (const auto& [id, sizes] : composites_)
+        if (const auto built_in = decorations_[id].find(k_built_in);
+            built_in != decorations_[id].end() && built_in->second == k_workgroup_size)
+            for (size_t axis = 0; axis < interface_.workgroup.size(); ++axis)
+                interface_.workgroup[axis] = values_[sizes[axis]];
+}
+
 Result<ShaderInterface> Reader::finish()
 {
     if (!status_)
@@ -284,6 +303,7 @@ Result<ShaderInterface> Reader::finish()
     for (const auto& [id, decorations] : decorations_)
         if (const auto spec_id = decorations.find(k_spec_id); spec_id != decorations.end())
             interface_.constants.push_back({spec_id->second, name_of(id)});
+    read_workgroup();
     std::ranges::sort(interface_.bindings, {}, &ShaderBinding::number);
     const auto twice = std::ranges::adjacent_find(interface_.bindings, {}, &ShaderBinding::number);
     if (twice != interface_.bindings.end())

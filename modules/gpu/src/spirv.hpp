@@ -12,6 +12,8 @@ enum Opcode : uint32_t
 {
     k_name = 5,
     k_extended_instruction = 12,
+    k_entry_point = 15,
+    k_execution_mode = 16,
     k_capability = 17,
     k_type_bool = 20,
     k_type_int = 21,
@@ -33,6 +35,7 @@ enum Opcode : uint32_t
     k_load = 61,
     k_access_chain = 65,
     k_in_bounds_access_chain = 66,
+    k_array_length = 68,
     k_decorate = 71,
     k_member_decorate = 72,
     k_vector_extract_dynamic = 77,
@@ -54,9 +57,11 @@ enum Opcode : uint32_t
 enum Decoration : uint32_t
 {
     k_spec_id = 1,
+    k_buffer_block = 3, // SPIR-V 1.0: a storage buffer, in the storage class of uniform buffers
     k_row_major = 4,
     k_array_stride = 6,
     k_matrix_stride = 7,
+    k_built_in = 11,
     k_volatile = 21,
     k_coherent = 23,
     k_non_writable = 24,
@@ -75,7 +80,12 @@ enum StorageClass : uint32_t
     k_storage_buffer = 12,
 };
 
+constexpr uint32_t k_local_size = 17;     // an execution mode
+constexpr uint32_t k_workgroup_size = 25; // of k_built_in
+
 constexpr size_t k_header_words = 5;
+constexpr size_t k_version_word = 1;
+constexpr uint32_t k_version_1_4 = 0x10400;
 constexpr size_t k_bound_word = 3; // of the header: all ids are smaller
 
 // Calls visit(opcode, words), words with the instruction's first one, until it returns false or the code is not SPIR-V.

@@ -37,6 +37,9 @@ public:
     [[nodiscard]] std::optional<uint32_t>
     constant(uint32_t id) const;                            // the value of one that specialization leaves alone
     [[nodiscard]] uint32_t components(uint32_t type) const; // of a scalar or vector of 32 bits; 0: it is none
+    [[nodiscard]] uint32_t last_binding() const;            // the highest number
+    // Bytes up to the end of the last scalar, of a type laid out by its decorations.
+    [[nodiscard]] uint32_t end_of(uint32_t type, uint32_t matrix_stride) const;
 
 private:
     using ByName = std::unordered_map<uint32_t, uint32_t>; // values of decorations; those without one have 1
@@ -50,11 +53,14 @@ private:
 // A buffer that texels are read from.
 struct TexelBuffer
 {
-    uint32_t number = 0;  // of the binding
-    uint32_t element = 0; // type
+    uint32_t number = 0;     // of the binding
+    uint32_t member = 0;     // of the block: the array that it ends with
+    uint32_t first_byte = 0; // of that array
+    uint32_t element = 0;    // type
     uint32_t stride = 0;
     uint32_t matrix_stride = 0; // of elements that are matrices
     uint32_t texel_bytes = 0;
+    bool whole = true; // all that functions do is to read texels
 };
 
 // What an access chain into a buffer leads to.
@@ -62,12 +68,14 @@ struct Chain
 {
     uint32_t variable = 0;
     std::vector<uint32_t> indices; // ids: the block's member, the element, and on into it
+    bool is_loaded = false;
+    bool is_kept = false; // something else happens to what it leads to
 };
 
 struct TexelBuffers
 {
-    std::unordered_map<uint32_t, TexelBuffer> buffers; // by variable
-    std::unordered_map<uint32_t, Chain> chains;        // into them, by id
+    std::map<uint32_t, TexelBuffer> buffers;    // by variable
+    std::unordered_map<uint32_t, Chain> chains; // whose loads are reads of texels, by id
 };
 
 // Also reads the declarations.

@@ -56,17 +56,24 @@ private:
     uint32_t unsigned_type(uint32_t components);
     uint32_t image_type();
     uint32_t constant(uint32_t value);
+    // The variable of a buffer's texels; a new one if the storage buffer stays.
+    void add_image(uint32_t variable, const TexelBuffer& buffer);
+    void list_images(std::vector<uint32_t>& to, size_t words) const;
 
     Words code_;
     uint32_t next_id_ = 0;
+    uint32_t next_number_ = 0; // of a binding
     Declarations declared_;
     TexelBuffers found_;
     std::array<uint32_t, 5> unsigned_types_{};   // by components
     std::map<uint32_t, uint32_t> new_constants_; // by value
-    std::vector<uint32_t> declarations_;         // new ones
+    std::vector<uint32_t> decorations_;          // new ones
+    std::vector<uint32_t> declarations_;
     std::vector<uint32_t> functions_;
+    std::map<uint32_t, uint32_t> images_; // by variable of the storage buffer
+    std::map<uint32_t, TexelBinding> bindings_;
 
-    uint32_t variable_ = 0;                // of the load that is written
+    uint32_t image_ = 0;                   // of the load that is written
     std::map<uint32_t, uint32_t> fetched_; // its texels, by number from the first one on
 };
 
@@ -165,7 +172,7 @@ uint32_t Rewriter::fetch(uint32_t texel, uint32_t number)
     {
         const uint32_t coordinate =
             number == 0 ? texel : emit(k_integer_add, unsigned_type(1), {texel, constant(number)});
-        const uint32_t image = emit(k_load, image_type(), {variable_});
+        const uint32_t image = emit(k_load, image_type(), {image_});
         found->second = emit(k_image_fetch, unsigned_type(4), {image, coordinate});
     }
     return found->second;
@@ -204,9 +211,9 @@ void Rewriter::write_load(Words words)
 {
     const Chain& chain = found_.chains.at(words[3]);
     const TexelBuffer& buffer = found_.buffers.at(chain.variable);
-    variable_ = chain.variable;
+    image_ = images_.at(chain.variable);
     fetched_.clear();
-    Place place{buffer.element, buffer.matrix_stride, 0, chain.indices[1], 0};
+    Place place{buffer.element, buffer.matrix_stride, buffer.first_byte, chain.indices[1], 0};
     if (const uint32_t texels = buffer.stride / buffer.texel_bytes; texels > 1)
         place.texel = emit(k_integer_multiply, unsigned_type(1), {place.texel, constant(texels)});
     for (size_t i = 2; i < chain.indices.size(); ++i)
@@ -249,7 +256,11 @@ void Rewriter::write_functions()
 
 bool Rewriter::is_replaced(uint32_t opcode, Words words) const
 {
-    const auto is_buffer = [&](uint32_t id) { return found_.buffers.contains(id); };
+    const auto is_buffer = [&](uint32_t id)
+    {
+        const auto found = found_.buffers.find(id);
+        return found != found_.buffers.end() && found->second.whole;
+    };
     if (opcode == k_extended_instruction) // debug information
         return std::ranges::any_of(words.subspan(5), is_buffer);
     if (opcode == k_decorate)
@@ -261,35 +272,66 @@ void Rewriter::write_declarations(std::vector<uint32_t>& to)
 {
     constexpr uint32_t k_sampled_buffer = 46;
     const uint32_t pointer = type(k_type_pointer, {k_uniform_constant, image_type()});
-    bool is_first = true;
+    bool has_capability = false;
+    bool has_decorations = false;
     for_each_instruction(code_,
                          [&](uint32_t opcode, Words words)
                          {
                              if (opcode == k_function)
                                  return false;
-                             if (std::exchange(is_first, false))
+                             if (!std::exchange(has_capability, true))
                                  to.insert(to.end(), {2u << 16 | k_capability, k_sampled_buffer});
-                             if (!is_replaced(opcode, words))
-                                 to.insert(to.end(), words.begin(), words.end());
+                             if (opcode == k_decorate && !std::exchange(has_decorations, true))
+                                 to.insert(to.end(), decorations_.begin(), decorations_.end());
+                             if (is_replaced(opcode, words))
+                                 return true;
+                             to.insert(to.end(), words.begin(), words.end());
+                             if (opcode == k_entry_point && code_[k_version_word] >= k_version_1_4)
+                                 list_images(to, words.size());
                              return true;
                          });
     to.insert(to.end(), declarations_.begin(), declarations_.end());
-    for (const auto& [variable, buffer] : found_.buffers)
-        to.insert(to.end(), {4u << 16 | k_variable, pointer, variable, k_uniform_constant});
+    for (const auto& [variable, image] : images_)
+        to.insert(to.end(), {4u << 16 | k_variable, pointer, image, k_uniform_constant});
+}
+
+// Since SPIR-V 1.4 the entry point, the last `words` words of `to`, names all variables.
+void Rewriter::list_images(std::vector<uint32_t>& to, size_t words) const
+{
+    uint32_t& first = to[to.size() - words];
+    uint32_t added = 0;
+    for (const auto& [variable, image] : images_)
+        added += image != variable ? 1 : 0;
+    first += added << 16;
+    for (const auto& [variable, image] : images_)
+        if (image != variable)
+            to.push_back(image);
+}
+
+void Rewriter::add_image(uint32_t variable, const TexelBuffer& buffer)
+{
+    TexelBinding& binding = bindings_[buffer.number];
+    binding = {buffer.whole ? buffer.number : next_number_++, buffer.texel_bytes};
+    images_[variable] = buffer.whole ? variable : next_id_++;
+    if (!buffer.whole)
+        for (const auto& [name, value] : {std::pair(k_binding, binding.number), std::pair(k_descriptor_set, 0u)})
+            decorations_.insert(decorations_.end(), {4u << 16 | k_decorate, images_[variable], name, value});
 }
 
 TexelReads Rewriter::rewrite()
 {
     if (found_.buffers.empty())
         return {};
+    next_number_ = declared_.last_binding() + 1;
+    for (const auto& [variable, buffer] : found_.buffers)
+        add_image(variable, buffer);
     write_functions();
     TexelReads result;
     result.spirv.assign(code_.begin(), code_.begin() + k_header_words);
     write_declarations(result.spirv);
     result.spirv.insert(result.spirv.end(), functions_.begin(), functions_.end());
     result.spirv[k_bound_word] = next_id_;
-    for (const auto& [variable, buffer] : found_.buffers)
-        result.texel_bytes[buffer.number] = buffer.texel_bytes;
+    result.bindings = std::move(bindings_);
     return result;
 }
 

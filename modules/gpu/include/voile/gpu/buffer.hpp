@@ -36,8 +36,9 @@ private:
     VkDeviceSize size_ = 0;
 };
 
-// A size of 0 gives a buffer of 16 bytes, so that it can be bound. Errors: larger than the device's limits,
-// out of memory; the message names the buffer and its size.
+// A size of 0 gives a buffer of 16 bytes, so that it can be bound. Where the context has texel_reads, the VkBuffer is
+// up to 767 bytes longer. Errors: larger than the device's limits, out of memory; the message names the buffer and its
+// size.
 VOILE_GPU_API Result<Buffer> create_buffer(const Context& context, const char* name, VkDeviceSize bytes,
                                            VkBufferUsageFlags usage, Memory memory);
 

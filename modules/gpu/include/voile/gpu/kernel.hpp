@@ -14,15 +14,17 @@ namespace voile::gpu
 
 struct KernelDescription
 {
-    const char* name = nullptr;      // label, pipeline name and timestamp name; a literal
-    std::span<const uint32_t> spirv; // one compute entry point "main"; its descriptors are buffers of set 0
+    const char* name = nullptr; // label, pipeline name and timestamp name; a literal
+    // One compute entry point "main", SPIR-V of any version that the device takes; its descriptors are buffers of set
+    // 0.
+    std::span<const uint32_t> spirv;
     // A value for each specialization constant of the shader, and for no other. Id 0 is the workgroup size in x by
     // convention.
     std::vector<SpecializationConstant> specialization;
 };
 
-// What the shader declares. Errors: a descriptor that is no buffer of set 0, a specialization constant that is
-// given no value or that the shader does not have; each names the kernel.
+// What the shader declares. Errors: a descriptor that is no buffer of set 0, an array of buffers, a specialization
+// constant that is given no value or that the shader does not have; each names the kernel.
 VOILE_GPU_API Result<ShaderInterface> reflect(const KernelDescription& description);
 
 // Errors: those of reflect; more push-constant bytes, a larger workgroup, more shared memory or more storage buffers
@@ -60,12 +62,19 @@ private:
 };
 
 // A buffer for the binding of that number: all of it, or a range.
+//
+// Two bindings of a kernel may have the same memory, one of them "readonly". Compilers, and Context::texel_reads, take
+// them for different memory (SPIR-V, "Aliasing"): an entry that a dispatch writes may be read through the readonly
+// binding by the thread that writes it alone, before it does.
 struct BufferBinding
 {
     uint32_t number = 0;
     VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceSize offset =
-        0; // bytes; a multiple of minStorageBufferOffsetAlignment, or of minUniformBufferOffsetAlignment
+    // Bytes; a multiple of minStorageBufferOffsetAlignment or minUniformBufferOffsetAlignment, and where the context
+    // has texel_reads, of minTexelBufferOffsetAlignment.
+    VkDeviceSize offset = 0;
+    // Up to the end of the last entry that the kernel reads, or further; a multiple of 4. VK_WHOLE_SIZE: all that the
+    // VkBuffer has, which may be more than create_buffer was asked for. Kernels that use .length() need exact bytes.
     VkDeviceSize bytes = VK_WHOLE_SIZE;
 };
 
