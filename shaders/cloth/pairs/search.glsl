@@ -80,7 +80,7 @@ Spheres spheres_of(Piece piece)
 }
 
 // Which primitives of two wedges are a pair: the vertex and the triangle of the candidate, the reverse, or two edges: from
-// here on two bits say which, as in consider_spokes.
+// here on two bits say which, as in nodes_of.
 const uint k_own_vertex = 0;
 const uint k_own_triangle = 1;
 const uint k_edges = 4;
@@ -126,44 +126,73 @@ bool are_near(Search search, vec4 a, vec4 b)
     return dot(apart, apart) <= near * near;
 }
 
-void consider_triangle(inout Search search, uint kind, Node v, Piece piece, vec4 around)
+bool has_vertex(Piece piece, uint vertex)
 {
-    if (!piece.wedge.triangle || !are_near(search, vec4(v.x, reach_of(v)), around) ||
-        v.vertex == piece.a.vertex || v.vertex == piece.b.vertex || v.vertex == piece.c.vertex)
-        return;
-    const float at = distance_of(search, false, Node[](v, piece.a, piece.b, piece.c));
-    if (at <= search.range)
-        insert(search, kind, ordered_triangle(v.vertex, uvec3(piece.a.vertex, piece.b.vertex, piece.c.vertex)), false, at);
+    return vertex == piece.a.vertex || vertex == piece.b.vertex || vertex == piece.c.vertex;
 }
 
-void consider_edges(inout Search search, uint kind, Node a, Node b, Node c, Node d)
+bool is_triangle_near(Search search, Node v, Piece piece, vec4 around)
 {
-    if (a.vertex == c.vertex || a.vertex == d.vertex || b.vertex == c.vertex || b.vertex == d.vertex)
-        return;
-    const float at = distance_of(search, true, Node[](a, b, c, d));
-    if (at <= search.range)
-        insert(search, kind, ordered_edges(uvec2(a.vertex, b.vertex), uvec2(c.vertex, d.vertex)), true, at);
+    return piece.wedge.triangle && are_near(search, vec4(v.x, reach_of(v)), around) && !has_vertex(piece, v.vertex);
 }
 
-void consider_spokes(inout Search search, Piece own, Piece piece)
+// The kinds of pairs of two wedges that may be within the range, a bit each.
+uint near_kinds(Search search, Piece own, Piece piece, bool own_vertex, bool own_triangle)
 {
     const Spheres of_own = spheres_of(own);
     const Spheres of_other = spheres_of(piece);
-    for (uint k = 0; k < 4 && goes_on(search); ++k)
+    uint kinds = 0;
+    if (own_vertex && is_triangle_near(search, own.a, piece, of_other.triangle))
+        kinds |= 1u << k_own_vertex;
+    if (own_triangle && is_triangle_near(search, piece.a, own, of_own.triangle))
+        kinds |= 1u << k_own_triangle;
+    [[unroll]] for (uint k = 0; k < 4; ++k)
     {
         const bool first = (k & 1u) == 0;
         const bool second = (k & 2u) == 0;
+        const uint b = first ? own.b.vertex : own.c.vertex;
+        const uint d = second ? piece.b.vertex : piece.c.vertex;
         if ((first ? own.wedge.edge_b : own.wedge.edge_c) && (second ? piece.wedge.edge_b : piece.wedge.edge_c) &&
-            are_near(search, first ? of_own.edge_b : of_own.edge_c, second ? of_other.edge_b : of_other.edge_c))
-        {
-            Node b = own.c;
-            if (first)
-                b = own.b;
-            Node d = piece.c;
-            if (second)
-                d = piece.b;
-            consider_edges(search, k_edges + k, own.a, b, piece.a, d);
-        }
+            are_near(search, first ? of_own.edge_b : of_own.edge_c, second ? of_other.edge_b : of_other.edge_c) &&
+            own.a.vertex != piece.a.vertex && own.a.vertex != d && b != piece.a.vertex && b != d)
+            kinds |= 1u << (k_edges + k);
+    }
+    return kinds;
+}
+
+// The vertices of a pair: those of the first side, then those of the second.
+Node[4] nodes_of(uint kind, Piece own, Piece piece)
+{
+    if (kind == k_own_vertex)
+        return Node[](own.a, piece.a, piece.b, piece.c);
+    if (kind == k_own_triangle)
+        return Node[](piece.a, own.a, own.b, own.c);
+    Node b = own.c;
+    if ((kind & 1u) == 0)
+        b = own.b;
+    Node d = piece.c;
+    if ((kind & 2u) == 0)
+        d = piece.b;
+    return Node[](own.a, b, piece.a, d);
+}
+
+uvec4 ordered_vertices(bool edges, Node nodes[4])
+{
+    return edges ? ordered_edges(uvec2(nodes[0].vertex, nodes[1].vertex), uvec2(nodes[2].vertex, nodes[3].vertex))
+                 : ordered_triangle(nodes[0].vertex, uvec3(nodes[1].vertex, nodes[2].vertex, nodes[3].vertex));
+}
+
+// One loop over what is near, not a branch for each kind: llvmpipe executes both sides of branches.
+void consider_pieces(inout Search search, Piece own, Piece piece, uint kinds)
+{
+    for (; kinds != 0 && goes_on(search); kinds &= kinds - 1)
+    {
+        const uint kind = uint(findLSB(kinds));
+        const bool edges = kind >= k_edges;
+        const Node nodes[4] = nodes_of(kind, own, piece);
+        const float at = distance_of(search, edges, nodes);
+        if (at <= search.range)
+            insert(search, kind, ordered_vertices(edges, nodes), edges, at);
     }
 }
 
@@ -188,11 +217,7 @@ void consider_fan(inout Search search, Fan fan)
         if (!overlap(grown(piece.box, search.range + search.rounding), search.own.box))
             continue;
         search.combination = k;
-        if (j == 0)
-            consider_triangle(search, k_own_vertex, search.own.a, piece, spheres_of(piece).triangle);
-        if (k < own_wedges)
-            consider_triangle(search, k_own_triangle, piece.a, search.own, spheres_of(search.own).triangle);
-        consider_spokes(search, search.own, piece);
+        consider_pieces(search, search.own, piece, near_kinds(search, search.own, piece, j == 0, k < own_wedges));
     }
 }
 
