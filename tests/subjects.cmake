@@ -142,7 +142,7 @@ voile_add_test(test_moving_colliders SOURCES colliders/test_moving_colliders.cpp
 voile_add_test(test_hard_contacts SOURCES contact/test_hard_contacts.cpp contact/test_fast_colliders.cpp contact/test_limited_contact.cpp contact/test_round_colliders.cpp forces/test_softened.cpp support/shots.cpp colliders/test_odd_colliders.cpp colliders/test_spinning_collider.cpp support/test_crossing_checks.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_lifetime SOURCES solver/test_uploads.cpp solver/test_removal.cpp solver/test_random_changes.cpp solver/test_collider_changes.cpp solver/test_substeps.cpp solver/test_ids.cpp solver/test_limits.cpp solver/test_bindings.cpp solver/test_texel_reads.cpp solver/buffer_table.cpp solver/test_ranges.cpp solver/test_lifetime.cpp solver/test_old_memory.cpp solver/test_scopes.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_shaders(TARGET test_lifetime NAMESPACE tests::shaders FOLDER ${CMAKE_CURRENT_SOURCE_DIR}
-                  SHADERS solver/read_texels.comp solver/narrow_index.comp solver/buffer_array.comp solver/large_workgroup.comp)
+                  SHADERS solver/read_texels.comp solver/narrow_index.comp solver/buffer_array.comp solver/large_workgroup.comp solver/no_compute.vert)
 add_library(test_old_shaders STATIC)
 voile_add_shaders(TARGET test_old_shaders NAMESPACE tests::old_shaders FOLDER ${CMAKE_CURRENT_SOURCE_DIR} ENVIRONMENT vulkan1.0
                   SHADERS solver/double_words.comp)

@@ -329,7 +329,8 @@ TEST_CASE("attachments and tethers refuse bad input, and nothing changes")
           "cloth \"flag\": the attachment of vertex 1: stiffness is -1 N/m, must be 0 to 1e+09, or infinite for a pin");
     CHECK(refused({.vertex = 1, .damping = INFINITY}).find("damping is inf") != std::string::npos);
     CHECK(refused({.vertex = 1, .max_distance = -2}).find("max_distance is -2") != std::string::npos);
-    CHECK(refused({.vertex = 1, .backstop_normal = {0, 2, 0}}).find("not of unit length") != std::string::npos);
+    CHECK(refused({.vertex = 1, .backstop_normal = {0, 2, 0}})
+              .find("its backstop's normal (0, 2, 0) is not of unit length") != std::string::npos);
     CHECK(message(harness.solver.set_attachments(id, {voile::pin(2), voile::spring(2, 9)})) ==
           "cloth \"flag\": vertex 2 has two attachments");
 

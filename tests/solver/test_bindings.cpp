@@ -152,8 +152,10 @@ TEST_CASE("a kernel's interface is the same without names in its SPIR-V")
     CHECK(reason(voile::gpu::reflect(description)) == "kernel \"contact\": specialization constant 7 has no value");
 }
 
-TEST_CASE("an array of buffers is an error")
+TEST_CASE("an array of buffers, and a shader that is no kernel, are errors")
 {
+    CHECK(reason(voile::gpu::reflect({"vertices", tests::shaders::k_no_compute_vert, {}})) ==
+          "kernel \"vertices\": it has no compute entry point \"main\"");
     CHECK(reason(voile::gpu::reflect({"array", tests::shaders::k_buffer_array_comp, {}})) ==
           "kernel \"array\": binding 3 is an array of buffers");
 }

@@ -274,6 +274,8 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
           "collider \"sphere\": radius is 1e+18 m, must be 0.0001 to 2e+06");
     CHECK(refused(voile::CapsuleCollider{.radius = 0}) ==
           "collider \"capsule\": radius is 0 m, must be 0.0001 to 2e+06");
+    CHECK(refused(voile::PlaneCollider{.normal = {0, 2, 0}}) ==
+          "collider \"plane\": the plane's normal (0, 2, 0) is not of unit length");
     CHECK(refused(voile::PlaneCollider{.offset = k_infinity}) ==
           "collider \"plane\": offset is inf m, must be -1e+06 to 1e+06");
     CHECK(refused(voile::BoxCollider{.max = {0.5f, 0.5f, 2e6f}}) ==
@@ -297,7 +299,7 @@ TEST_CASE("positions, velocities and frames out of range are refused by name")
           "collider \"mesh\": its transform takes position 1 to (1e+18, 0, 0), each must be -1e+06 to 1e+06 m");
     CHECK(refused(voile::MeshCollider{
               .positions = corners, .triangles = triangle, .sidedness = static_cast<voile::Sidedness>(9)}) ==
-          "collider \"mesh\": sides is 9, must be automatic, one or two");
+          "collider \"mesh\": sidedness is 9, must be automatic, one_sided or two_sided");
 
     const voile::ColliderId ball = voile::engine::take(solver.add_collider(voile::SphereCollider{}));
     CHECK(reason(solver.move_collider(ball, moved({0, 2e6f, 0}))) ==

@@ -105,6 +105,8 @@ std::string to_string(VkResult result)
         return "VK_SUCCESS";
     case VK_NOT_READY:
         return "VK_NOT_READY";
+    case VK_ERROR_UNKNOWN:
+        return "VK_ERROR_UNKNOWN";
     case VK_TIMEOUT:
         return "VK_TIMEOUT";
     case VK_ERROR_OUT_OF_HOST_MEMORY:

@@ -64,6 +64,7 @@ private:
     std::unordered_map<uint32_t, uint32_t> values_; // of whole numbers
     std::unordered_map<uint32_t, std::vector<uint32_t>> composites_;
     ShaderInterface interface_;
+    bool has_compute_ = false;
     Result<void> status_;
 };
 
@@ -233,6 +234,9 @@ void Reader::read(uint32_t opcode, std::span<const uint32_t> words)
 {
     switch (opcode)
     {
+    case k_entry_point: // an execution model, the function, its name
+        has_compute_ |= words[0] == k_compute_model && text_of(words.subspan(2)) == "main";
+        break;
     case k_execution_mode: // of the entry point
         if (words[1] == k_local_size)
             std::ranges::copy(words.subspan(2, 3), interface_.workgroup.begin());
@@ -300,6 +304,8 @@ Result<ShaderInterface> Reader::finish()
 {
     if (!status_)
         return status_.error();
+    if (!has_compute_)
+        return Error{"it has no compute entry point \"main\""};
     for (const auto& [id, decorations] : decorations_)
         if (const auto spec_id = decorations.find(k_spec_id); spec_id != decorations.end())
             interface_.constants.push_back({spec_id->second, name_of(id)});

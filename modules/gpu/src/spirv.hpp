@@ -80,6 +80,7 @@ enum StorageClass : uint32_t
     k_storage_buffer = 12,
 };
 
+constexpr uint32_t k_compute_model = 5;
 constexpr uint32_t k_local_size = 17;     // an execution mode
 constexpr uint32_t k_workgroup_size = 25; // of k_built_in
 

@@ -121,7 +121,8 @@ void set_plane_origin(ColliderModel& plane, const glm::dvec3& point)
 Result<ColliderId> ColliderModels::add(const PlaneCollider& collider)
 {
     if (!finite(collider.normal) || std::abs(glm::length(collider.normal) - 1) > 1e-3f)
-        return invalid("collider", collider.name, "the plane's normal is not of unit length");
+        return invalid("collider", collider.name,
+                       "the plane's normal " + text(collider.normal) + " is not of unit length");
     Checks checks(collider.name, collider.friction);
     checks.offset("offset", collider.offset);
     if (!checks.status())

@@ -179,8 +179,8 @@ Result<ColliderId> ColliderModels::add_cooked(const MeshCollider& description)
 
 Result<ColliderId> ColliderModels::add(const MeshCollider& collider)
 {
-    if (auto sides = check_enumerator(subject("collider", collider.name), "sides", static_cast<int>(collider.sidedness),
-                                      {"automatic", "one", "two"});
+    if (auto sides = check_enumerator(subject("collider", collider.name), "sidedness",
+                                      static_cast<int>(collider.sidedness), {"automatic", "one_sided", "two_sided"});
         !sides)
         return sides.error();
     if (collider.cooked)

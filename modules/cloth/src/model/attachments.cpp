@@ -46,7 +46,7 @@ Result<void> validate_attachment(const Model& model, const Attachment& attachmen
             return valid;
     const float length = glm::length(attachment.backstop_normal);
     if (length != 0 && !(std::abs(length - 1) <= 1e-3f))
-        return bad("its backstop's normal is not of unit length");
+        return bad("its backstop's normal " + text(attachment.backstop_normal) + " is not of unit length");
     return {};
 }
 

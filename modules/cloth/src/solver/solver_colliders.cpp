@@ -195,8 +195,7 @@ Result<std::vector<Attachment>> Solver::attachments_on_surface(ClothId cloth, Co
             attachments.push_back(pin(i).at(glm::vec3(placement * glm::dvec4(*point + origin, 1))));
     }
     if (attachments.empty())
-        return invalid("cloth", name(cloth),
-                       "no vertex starts within " + std::to_string(distance) + " m of the collider");
+        return invalid("cloth", name(cloth), "no vertex starts within " + text(distance) + " m of the collider");
     ColliderPose& pose = model.pose;
     if (!pose.anchor)
     {

@@ -23,8 +23,8 @@ struct KernelDescription
     std::vector<SpecializationConstant> specialization;
 };
 
-// What the shader declares. Errors: a descriptor that is no buffer of set 0, an array of buffers, a specialization
-// constant that is given no value or that the shader does not have; each names the kernel.
+// What the shader declares. Errors: no compute entry point "main", a descriptor that is no buffer of set 0, an array of
+// buffers, a specialization constant that is given no value or that the shader does not have; each names the kernel.
 VOILE_GPU_API Result<ShaderInterface> reflect(const KernelDescription& description);
 
 // Errors: those of reflect; more push-constant bytes, a larger workgroup, more shared memory or more storage buffers

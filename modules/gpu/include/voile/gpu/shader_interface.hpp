@@ -52,8 +52,8 @@ struct ShaderInterface
 };
 
 // `spirv` must be valid, of any version. `specialization` decides the sizes of shared arrays and of the workgroup.
-// Names serve messages alone: everything else survives their removal. Errors: a descriptor that is no buffer of set 0,
-// or an array of buffers; two of one number.
+// Names serve messages alone: everything else survives their removal. Errors: no compute entry point "main"; a
+// descriptor that is no buffer of set 0, or an array of buffers; two of one number.
 VOILE_GPU_API Result<ShaderInterface> reflect(std::span<const uint32_t> spirv,
                                               std::span<const SpecializationConstant> specialization);
 
