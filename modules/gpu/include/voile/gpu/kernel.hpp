@@ -105,8 +105,8 @@ private:
 
     Context context_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    uint32_t sets_left_ = 0;
     std::vector<VkBufferView> views_; // of texels
+    uint32_t sets_left_ = 0;
     uint32_t buffers_left_ = 0;
     uint32_t uniform_buffers_left_ = 0;
 };
