@@ -266,10 +266,7 @@ void Uses::follow(uint32_t opcode, std::span<const uint32_t> words)
         if (leads_on && (i == 2 || i == 3))
             continue;
         if (const auto chain = found_.chains.find(words[i]); chain != found_.chains.end())
-        {
-            const bool is_load = opcode == k_load && words.size() == 4 && i == 3;
-            (is_load ? chain->second.is_loaded : chain->second.is_kept) = true;
-        }
+            chain->second.is_kept |= opcode != k_load || words.size() != 4 || i != 3;
         if (const auto buffer = found_.buffers.find(words[i]); buffer != found_.buffers.end())
         {
             if (opcode == k_array_length)

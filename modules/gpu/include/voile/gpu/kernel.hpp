@@ -15,8 +15,8 @@ namespace voile::gpu
 struct KernelDescription
 {
     const char* name = nullptr; // label, pipeline name and timestamp name; a literal
-    // One compute entry point "main", SPIR-V of any version that the device takes; its descriptors are buffers of set
-    // 0.
+    // SPIR-V of any version that the device takes: one compute entry point "main", whose descriptors are buffers of
+    // set 0.
     std::span<const uint32_t> spirv;
     // A value for each specialization constant of the shader, and for no other. Id 0 is the workgroup size in x by
     // convention.
