@@ -68,7 +68,7 @@ struct Chain
 {
     uint32_t variable = 0;
     std::vector<uint32_t> indices; // ids: the block's member, the element, and on into it
-    bool is_kept = false; // something else than a load happens to what it leads to
+    bool is_kept = false;          // something else than a load happens to what it leads to
 };
 
 struct TexelBuffers
