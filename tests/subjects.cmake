@@ -146,7 +146,10 @@ voile_add_shaders(TARGET test_lifetime NAMESPACE tests::shaders FOLDER ${CMAKE_C
 add_library(test_old_shaders STATIC)
 voile_add_shaders(TARGET test_old_shaders NAMESPACE tests::old_shaders FOLDER ${CMAKE_CURRENT_SOURCE_DIR} ENVIRONMENT vulkan1.0
                   SHADERS solver/double_words.comp)
-target_link_libraries(test_lifetime PRIVATE test_old_shaders)
+add_library(test_new_shaders STATIC)
+voile_add_shaders(TARGET test_new_shaders NAMESPACE tests::new_shaders FOLDER ${CMAKE_CURRENT_SOURCE_DIR} ENVIRONMENT vulkan1.3
+                  SHADERS solver/sized_workgroup.comp)
+target_link_libraries(test_lifetime PRIVATE test_old_shaders test_new_shaders)
 voile_add_test(test_depenetration SOURCES contact/test_solids.cpp contact/test_inside.cpp contact/test_pinch.cpp contact/test_depenetration.cpp contact/test_separate_solids.cpp LIBRARIES voile::cloth voile::engine)
 voile_add_test(test_command_reuse SOURCES solver/test_command_reuse.cpp LIBRARIES voile::cloth_internal voile::engine)
 voile_add_test(test_output SOURCES solver/test_output.cpp solver/test_previous_positions.cpp solver/test_vertex_streams.cpp LIBRARIES voile::cloth voile::engine)

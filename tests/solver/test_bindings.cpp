@@ -7,6 +7,7 @@
 #include "solver/buffer_declarations.hpp"
 #include "solver/descriptor_sets.hpp"
 #include "test_lifetime_shaders.hpp"
+#include "test_new_shaders_shaders.hpp"
 
 #include "shared/contact_layout.h"
 
@@ -179,6 +180,12 @@ TEST_CASE("literal sizes of a workgroup count, and push constants end at a word"
     limits.maxComputeWorkGroupSize[2] = 1;
     CHECK(reason(voile::gpu::check_limits(limits, description)) ==
           "kernel \"large\" has a workgroup of 32 x 32 x 2, the device allows 1 to 1 in z");
+}
+
+TEST_CASE("the specialized workgroup of SPIR-V 1.6 counts")
+{
+    const voile::gpu::KernelDescription description{"sized", tests::new_shaders::k_sized_workgroup_comp, {{0, 96}}};
+    CHECK(voile::engine::take(voile::gpu::reflect(description)).workgroup == std::array<uint32_t, 3>{96, 1, 1});
 }
 
 TEST_CASE_FIXTURE(Bindings, "the block of each binding has the binding's name")

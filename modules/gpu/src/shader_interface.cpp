@@ -64,6 +64,7 @@ private:
     std::unordered_map<uint32_t, uint32_t> values_; // of whole numbers
     std::unordered_map<uint32_t, std::vector<uint32_t>> composites_;
     ShaderInterface interface_;
+    std::vector<uint32_t> workgroup_ids_; // of constants; empty: literal sizes
     bool has_compute_ = false;
     Result<void> status_;
 };
@@ -241,6 +242,10 @@ void Reader::read(uint32_t opcode, std::span<const uint32_t> words)
         if (words[1] == k_local_size)
             std::ranges::copy(words.subspan(2, 3), interface_.workgroup.begin());
         break;
+    case k_execution_mode_id: // since SPIR-V 1.2
+        if (words[1] == k_local_size_id)
+            workgroup_ids_.assign(words.begin() + 2, words.begin() + 5);
+        break;
     case k_name:
         names_.emplace_back(words[0], words.subspan(1));
         break;
@@ -296,8 +301,9 @@ void Reader::read_workgroup()
     for (const auto& [id, sizes] : composites_)
         if (const auto built_in = decorations_[id].find(k_built_in);
             built_in != decorations_[id].end() && built_in->second == k_workgroup_size)
-            for (size_t axis = 0; axis < interface_.workgroup.size(); ++axis)
-                interface_.workgroup[axis] = values_[sizes[axis]];
+            workgroup_ids_ = sizes;
+    for (size_t axis = 0; axis < workgroup_ids_.size(); ++axis)
+        interface_.workgroup[axis] = values_[workgroup_ids_[axis]];
 }
 
 Result<ShaderInterface> Reader::finish()

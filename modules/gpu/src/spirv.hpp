@@ -52,6 +52,7 @@ enum Opcode : uint32_t
     k_signed_divide = 135,
     k_shift_right = 194,
     k_shift_left = 196,
+    k_execution_mode_id = 331,
 };
 
 enum Decoration : uint32_t
@@ -81,7 +82,8 @@ enum StorageClass : uint32_t
 };
 
 constexpr uint32_t k_compute_model = 5;
-constexpr uint32_t k_local_size = 17;     // an execution mode
+constexpr uint32_t k_local_size = 17;     // execution modes: numbers,
+constexpr uint32_t k_local_size_id = 38;  // and ids of constants
 constexpr uint32_t k_workgroup_size = 25; // of k_built_in
 
 constexpr size_t k_header_words = 5;
