@@ -47,6 +47,30 @@ TEST_CASE("frames after the first few allocate nothing on the heap")
     app.finish();
 }
 
+// Once something is drawn, Mesa's llvmpipe takes times late (Timestamps::is_late).
+TEST_CASE("the passes of cloth take the time of the cloth, also after pictures")
+{
+    voile::engine::App app({.extent = {64, 36}, .headless = true, .timestamps = true});
+    auto& world = app.scene().add("cloth").add<voile::component::ClothWorld>(app.device(), app.slots());
+    app.scene().add("sheet").add<voile::component::Sheet>(world, app.uploads(),
+                                                          voile::GridCloth{.columns = 48, .rows = 48},
+                                                          voile::component::fabric_surface({1, 0, 0}, {0, 0, 1}, 1));
+    double cloth = 0;
+    double passes = 0;
+    app.completed = [&](const voile::engine::FrameInfo& frame)
+    {
+        if (frame.index < 2) // the driver compiles
+            return;
+        for (const voile::gpu::PassTime& pass : frame.timestamps->read(frame.slot))
+            (pass.name == "cloth" ? cloth : passes) += pass.name.starts_with("cloth") ? pass.milliseconds : 0;
+    };
+    for (int i = 0; i < 6; ++i)
+        REQUIRE(app.frame());
+    app.finish();
+    CHECK(passes > 0.5 * cloth);
+    CHECK(passes <= cloth);
+}
+
 namespace
 {
 

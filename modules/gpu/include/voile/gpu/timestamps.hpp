@@ -49,6 +49,8 @@ private:
     };
 
     void release();
+    [[nodiscard]] bool is_late() const;
+    [[nodiscard]] uint32_t queries() const;
 
     Context context_;
     std::vector<Slot> slots_;
