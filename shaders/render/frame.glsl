@@ -9,6 +9,12 @@ layout(set = 0, binding = 1) uniform sampler2DShadow shadow_map;
 layout(set = 0, binding = 2) uniform sampler2D shadow_depth; // the same image, without comparison
 layout(set = 0, binding = 3) uniform sampler2D height_depth;
 
+// Mesa's CPU device executes both sides of a branch, and ends a loop only if the number of its rounds is not known before.
+layout(constant_id = 0) const bool k_is_cpu = false; // set by graphics_pipeline.cpp
+
+// Of a loop that a pixel needs or not: as many on GPUs, so that they unroll it behind a branch.
+int rounds(int count, bool needed) { return k_is_cpu && !needed ? 0 : count; }
+
 // Both maps cover the sphere around the focus, 6 radii deep (Renderer::State::uniforms).
 const float k_map_depth = 6;
 

@@ -12,11 +12,12 @@ float sky_visibility(vec3 world, vec3 normal)
     const float widest = 0.22 * frame.focus_radius; // m
     const vec3 lifted = world + 0.012 * frame.focus_radius * normal;
     const vec4 clip = frame.height_from_world * vec4(lifted, 1);
-    if (any(greaterThan(abs(clip.xy), vec2(1))))
+    const bool mapped = all(lessThanEqual(abs(clip.xy), vec2(1)));
+    if (!mapped)
         return 1;
     vec2 around = pixel_direction(gl_FragCoord.xy);
     float hidden = 0;
-    for (int i = 0; i < k_taps; ++i)
+    for (int i = 0; i < rounds(k_taps, mapped); ++i)
     {
         const vec2 offset = widest * (float(i) + 0.5) / k_taps * around; // denser near the point
         around = next_direction(around);

@@ -39,12 +39,12 @@ ShadowPoint shadow_point(vec3 world, vec3 normal_to_sun)
 
 // The mean distance along the map from the surface to what is between it and the sun; -1 if nothing is, and 0 if all of
 // it is at the point itself. The taps miss cloth that lies on a round body: away from the point, the plane is above both.
-float find_blockers(ShadowPoint p)
+float find_blockers(ShadowPoint p, bool mapped)
 {
     const bool shaded = textureLod(shadow_map, vec3(p.at, p.depth), 0) < 1;
     vec2 sum = vec2(0);
     vec2 direction = p.direction;
-    for (int i = 0; i < k_blocker_taps; ++i)
+    for (int i = 0; i < rounds(k_blocker_taps, mapped); ++i)
     {
         const float radius = k_widest_shadow * frame.shadow_step * sqrt((float(i) + 0.5) / k_blocker_taps);
         const vec2 offset = radius * direction;
@@ -66,9 +66,10 @@ struct SunVisibility
 SunVisibility sample_sun(vec3 world, vec3 normal_to_sun)
 {
     const ShadowPoint p = shadow_point(world, normal_to_sun);
-    if (any(greaterThan(abs(p.at - 0.5), vec2(0.5))) || p.depth >= 1)
+    const bool mapped = all(lessThanEqual(abs(p.at - 0.5), vec2(0.5))) && p.depth < 1;
+    if (!mapped)
         return SunVisibility(1, 0);
-    const float above = find_blockers(p);
+    const float above = find_blockers(p, mapped);
     if (above < 0)
         return SunVisibility(1, 0);
     // Texels: a map of 2 radii shows a depth of 6.
@@ -76,7 +77,7 @@ SunVisibility sample_sun(vec3 world, vec3 normal_to_sun)
     const float widest = clamp(penumbra, k_narrowest_shadow, k_widest_shadow) * frame.shadow_step;
     float lit = 0;
     vec2 direction = p.direction;
-    for (int i = 0; i < k_shadow_taps; ++i)
+    for (int i = 0; i < rounds(k_shadow_taps, mapped && above >= 0); ++i)
     {
         const vec2 offset = widest * sqrt((float(i) + 0.5) / k_shadow_taps) * direction;
         direction = next_direction(direction);

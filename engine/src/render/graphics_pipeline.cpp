@@ -117,11 +117,16 @@ Owned<VkPipeline> create_graphics_pipeline(const gpu::Context& context, const Gr
 {
     const Owned<VkShaderModule> vertex = create_module(context, description.name, description.vertex);
     Owned<VkShaderModule> fragment;
+    // Constant 0 of fragment shaders that have one (shaders/render/frame.glsl).
+    const VkBool32 is_cpu = context.device_type == VK_PHYSICAL_DEVICE_TYPE_CPU ? VK_TRUE : VK_FALSE;
+    const VkSpecializationMapEntry entry{0, 0, sizeof(is_cpu)};
+    const VkSpecializationInfo constants{1, &entry, sizeof(is_cpu), &is_cpu};
     std::vector<VkPipelineShaderStageCreateInfo> stages{stage_info(VK_SHADER_STAGE_VERTEX_BIT, vertex.get())};
     if (!description.fragment.empty())
     {
         fragment = create_module(context, description.name, description.fragment);
         stages.push_back(stage_info(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get()));
+        stages.back().pSpecializationInfo = &constants;
     }
     const VertexInput input(description.streams);
     const VkPipelineVertexInputStateCreateInfo input_info = input.info();
