@@ -56,10 +56,10 @@ vec3 missing_displacement(uint i, FinePosition here, vec3 shift, vec3 v, float h
     return 0.5 * h * (earlier_velocities[i].xyz + v) - displacement(earlier, here) - shift;
 }
 
-// Whether the spring acts within the time of a sweep (pairs/clear.glsl).
+// Whether the spring acts while lists last (pairs/clear.glsl).
 bool is_firm(AttachmentRecord attachment, float w)
 {
-    const float t = VOILE_PAIR_SWEEP_TIME;
+    const float t = step_input.list_time;
     return t * w * (attachment.damping + t * attachment.stiffness) > k_firm_grip;
 }
 

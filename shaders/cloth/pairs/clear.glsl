@@ -194,7 +194,7 @@ RelativeWay relative_way(Way way, uint c, ColliderRecord collider)
         relative = rotate_back(pose.rotation, way.v - surface);
         moved = motion_at(motion, vec3(length(from) + way.time * length(way.v)));
     }
-    return RelativeWay(grown(box_around(from, from + VOILE_PAIR_SWEEP_TIME * along), way.margin + moved),
+    return RelativeWay(grown(box_around(from, from + step_input.list_time * along), way.margin + moved),
                        grown(box_around(from, from + way.time * relative), way.near), from, surface);
 }
 

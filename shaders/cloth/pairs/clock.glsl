@@ -27,7 +27,7 @@ float clock_rate(uint cloth)
     if (is_clock_stopped(cloth))
         return 0;
     const float room = uintBitsToFloat(pair_islands[island_of(cloth)].rates[pair_pass() & 1u]);
-    return min(room, max(VOILE_PAIR_SWEEP_TIME - clock_at_pass(cloth), 0) / pair_interval());
+    return min(room, max(step_input.list_time - clock_at_pass(cloth), 0) / pair_interval());
 }
 
 // s^2: gravity times this is how far it carries vertices: since lists were made, and until the next pass if the clock
@@ -37,7 +37,7 @@ float fall_at_pass(uint cloth) { return pair_islands[cloth].falls[pair_pass() & 
 float fall_until_next(uint cloth)
 {
     const float clock = clock_at_pass(cloth);
-    return pair_interval() * (clock + 0.5 * min(pair_interval(), max(VOILE_PAIR_SWEEP_TIME - clock, 0)));
+    return pair_interval() * (clock + 0.5 * min(pair_interval(), max(step_input.list_time - clock, 0)));
 }
 
 // m: how far what falls freely is carried beyond what its word says, until the next pass if the clock runs as fast as time.
@@ -50,7 +50,7 @@ vec3 free_fall_until_next(uint cloth)
 // cloth.
 vec3 carry_until_next(uint word, vec3 fall)
 {
-    return 2 * pair_interval() / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word) + falls(word) * fall;
+    return pair_interval() * carry_velocity(word) + falls(word) * fall;
 }
 
 // Relative to another vertex of the island. What is carried equally has exactly 0, whatever a compiler does with sums.

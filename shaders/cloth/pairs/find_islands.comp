@@ -126,13 +126,13 @@ void write_reach(uint cloth)
     const uint mass = pair_islands[island].total_mass;
     const vec3 mean = mean_of(pair_islands[island].total_momentum, mass);
     const vec3 mean_from = velocity_at(frame.motion, mean_of(pair_islands[island].total_moment, mass));
-    const vec3 carry = VOILE_PAIR_SWEEP_TIME * (mean - mean_from);
-    const vec3 moved = frame_horizon() * frame.motion.velocity;
+    const vec3 carry = step_input.list_time * (mean - mean_from);
+    const vec3 moved = step_input.list_time * frame.motion.velocity;
     const Box box = box_of(cloth);
     const float farthest = length(max(abs(box.min - frame.origin), abs(box.max - frame.origin)));
     const float margin = cloths[cloth].pair_sweep + cloths[cloth].pair_range + step_input.pair_fall +
                          k_packing * length(carry) + rounding(box.min) + rounding(box.max) +
-                         frame_horizon() * length(frame.motion.angular_velocity) * farthest;
+                         step_input.list_time * length(frame.motion.angular_velocity) * farthest;
     for (uint k = 0; k < 3; ++k)
     {
         pair_islands[cloth].reach_low[k] = box.min[k] + min(carry[k], 0) + min(moved[k], 0) - margin;

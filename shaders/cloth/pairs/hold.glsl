@@ -86,7 +86,7 @@ Hold hold_of(uint i, uint cloth, FinePosition from)
     hold.swept = displacement(FinePosition(sweep.from, unpack_residual(sweep.residual)), from);
     const float rate = pair_islands[cloth].rate;
     const float clock = pair_islands[cloth].clock;
-    const vec3 velocity = 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(sweep.carry) +
+    const vec3 velocity = carry_velocity(sweep.carry) +
                           (sweep.fall > 0 ? rounded_off(cloth) : vec3(0));
     const vec3 gravity = sweep.fall > 0 ? step_input.gravity : vec3(0);
     const MovingFrame frame = frame_of(cloth);
@@ -101,7 +101,8 @@ Hold hold_of(uint i, uint cloth, FinePosition from)
     hold.at -= pair_from() * (mean + frame.motion.velocity);
     hold.swept -= carried + made * frame.motion.velocity + pair_from() * (mean + frame.motion.velocity);
     const float end = clock + rate * pair_to() + push.pair_ahead * seconds(push.substeps);
-    hold.left = max(end - VOILE_PAIR_SWEEP_TIME, 0) * (velocity + VOILE_PAIR_SWEEP_TIME * gravity);
+    const float list_time = step_input.list_time;
+    hold.left = max(end - list_time, 0) * (velocity + list_time * gravity);
     if (is_turning(frame))
     {
         const bool verlet = (cloths[cloth].flags & VOILE_CLOTH_VERLET) != 0;

@@ -41,7 +41,7 @@ float motion_margin(uint c, Box swept)
 {
     const vec3 apart = max(abs(swept.max - shared_swept.min), abs(shared_swept.max - swept.min));
     const float farthest = length(apart) + length(shared_swept.max - shared_swept.min);
-    const float steps = max(1, frame_horizon() * step_input.rate);
+    const float steps = max(1, step_input.list_time * step_input.rate);
     return k_diagonal * steps * motion_at(collider_motions[c], vec3(farthest));
 }
 

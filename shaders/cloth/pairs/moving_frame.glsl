@@ -22,9 +22,6 @@ const float k_least_motion = 1e-4;
 
 bool is_worth_lists(float mean_square) { return sqrt(max(mean_square, 0)) * pair_interval() >= k_least_motion; }
 
-// s: how long lists with a frame are used, unless a pass takes longer. Restraints that a vertex may reach later do not count.
-float frame_horizon() { return max(VOILE_PAIR_SWEEP_TIME, pair_interval()); }
-
 // Means over restraints (pair_layout.h).
 struct RestraintMeans
 {

@@ -82,7 +82,7 @@ Way way_of(uint i, uint cloth)
 {
     const float thickness = cloths[cloth].thickness;
     const float margin = thickness + (k_neighborhood_radius + 1) * cloths[cloth].springs[0].rest_length;
-    return Way(positions[i].xyz, velocities[i].xyz, frame_horizon(), margin, k_near * thickness);
+    return Way(positions[i].xyz, velocities[i].xyz, step_input.list_time, margin, k_near * thickness);
 }
 
 // By all threads.

@@ -218,7 +218,7 @@ void keep_clock(uint cloth)
     pair_islands[cloth].falls[other] = fall + gained;
     pair_islands[cloth].times[other] = pair_islands[cloth].times[1 - other] + pair_interval();
     pair_islands[cloth].rates[other] = floatBitsToUint(1);
-    if (is_moving(frame_of(cloth)) && pair_islands[cloth].times[other] + pair_interval() > frame_horizon())
+    if (is_moving(frame_of(cloth)) && pair_islands[cloth].times[other] + pair_interval() > step_input.list_time)
         want_lists();
 }
 

@@ -5,6 +5,8 @@
 #ifndef VOILE_SWEEP_GLSL
 #define VOILE_SWEEP_GLSL
 
+#include "shared/step_input.glsl"
+
 const uint k_sweep_bits = 9;
 const uint k_exponent_bits = 4;
 const int k_lowest_exponent = -22; // of the unit of the numbers, in m; the highest is -7
@@ -36,6 +38,15 @@ vec3 unpack_half_sweep(uint word)
                               bitfieldExtract(int(word), int(2 * k_sweep_bits), int(k_sweep_bits)));
     return uintBitsToFloat(exponent << 23) * vec3(words);
 }
+
+// How often what a packed carry says fits into the time of lists.
+float carries_in_lists() { return step_input.list_time / VOILE_PAIR_SWEEP_TIME; }
+
+// m, while lists last
+vec3 half_carry_of(uint word) { return carries_in_lists() * unpack_half_sweep(word); }
+
+// m/s
+vec3 carry_velocity(uint word) { return 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word); }
 
 // 1 or 0: whether gravity accelerates what is carried so.
 float falls(uint word) { return float(word >> 31); }

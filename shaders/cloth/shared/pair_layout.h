@@ -97,9 +97,11 @@
 #define VOILE_FRAME_UNIT_DRIVE 1e-3f
 #define VOILE_FRAME_UNIT_SQUARE 1e-2f
 #define VOILE_FRAME_UNIT_MOTION 1e-5f
-// s: the clock of the lists ends there.
+// s: lists last so long at least, and sweeps at most. Packed carries are ways in that time.
 #define VOILE_PAIR_SWEEP_TIME 3e-3f
-// The largest fall, of the square of that. Half if the clock runs as fast as time.
+// Lists last for so many passes at least, and a little longer, because times are rounded.
+#define VOILE_PAIR_LISTED_PASSES 4.04f
+// The largest fall, of the square of the time that lists last. Half if the clock runs as fast as time.
 #define VOILE_PAIR_MOST_FALL 0.75f
 // The part of a distance by which each side may approach the other. Less than half: both sides do.
 #define VOILE_PAIR_APPROACH 0.45f

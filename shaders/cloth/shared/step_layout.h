@@ -42,7 +42,8 @@ struct StepInput
     float sudden;         // m/s, the speed that a vertex at rest may gain until the next query
     uint first_substep;   // counted over all steps
     uint first_pair_pass; // counted over all steps
-    float pair_fall;      // m: how far gravity alone may carry a vertex until lists of pairs are made again
+    float list_time;      // s: how long lists of pairs last that are made in the step
+    float pair_fall;      // m: how far gravity alone may carry a vertex meanwhile
     uint driven;          // 1: colliders or anchors may move
     uint edited;          // 1: the host has changed more than that since the last step
 };
@@ -70,7 +71,7 @@ struct EditPush
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(StepInput) == 100);
+static_assert(sizeof(StepInput) == 104);
 static_assert(offsetof(StepInput, gust_phases) == 32 && offsetof(StepInput, gust_speed) == 64);
 static_assert(offsetof(EditPush, velocity) == 64);
 #endif

@@ -90,9 +90,14 @@ uint32_t substeps_per_pass(const Solver::State& solver, const Step& step, uint32
     return std::max(1u, period);
 }
 
-float fall_of_pairs(const Vec3& gravity)
+float time_of_lists(float interval)
 {
-    return VOILE_PAIR_MOST_FALL * VOILE_PAIR_SWEEP_TIME * VOILE_PAIR_SWEEP_TIME * glm::length(gravity);
+    return std::max(VOILE_PAIR_SWEEP_TIME, VOILE_PAIR_LISTED_PASSES * interval);
+}
+
+float fall_of_pairs(const Vec3& gravity, float list_time)
+{
+    return VOILE_PAIR_MOST_FALL * list_time * list_time * glm::length(gravity);
 }
 
 PairRecorder::PairRecorder(gpu::Recorder& recorder, const Solver::State& solver, const ActiveLists& lists,

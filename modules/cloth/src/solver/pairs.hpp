@@ -12,8 +12,11 @@ namespace voile
 // colliders and anchors move in the step. Vertices that they push may not reach where lists end before the next pass.
 uint32_t substeps_per_pass(const Solver::State& solver, const Step& step, uint32_t substeps, float farthest);
 
-// m: how far gravity alone may carry a vertex until the lists are made again.
-float fall_of_pairs(const Vec3& gravity);
+// s: how long lists last where passes are so far apart. The clock of their carries ends then.
+float time_of_lists(float interval);
+
+// m: how far gravity alone may carry a vertex meanwhile.
+float fall_of_pairs(const Vec3& gravity, float list_time);
 
 // Records the passes at the beginning of those substeps that have one.
 class PairRecorder

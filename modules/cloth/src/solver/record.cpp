@@ -77,7 +77,7 @@ void record_passes(gpu::Recorder& recorder, const Solver::State& solver, const A
                    const Step& step, const SubstepPlan& plan, const Passes& with_limits)
 {
     const uint32_t first_substep = count_substeps(recorder, solver, history, plan.substeps);
-    record_step_input(recorder, *solver.device, make_step_input(solver, history, step, plan.substeps, first_substep));
+    record_step_input(recorder, *solver.device, make_step_input(solver, history, step, plan, first_substep));
     const StepContext context{recorder, solver, lists, history, step, plan, with_limits};
     record_wake(recorder, solver, lists);
     StepRecorder passes(context);

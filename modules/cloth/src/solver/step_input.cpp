@@ -36,12 +36,12 @@ void set_gusts(shared::StepInput& input, const Step& step)
 } // namespace
 
 shared::StepInput make_step_input(const Solver::State& solver, const StepHistory& history, const Step& step,
-                                  uint32_t substeps, uint32_t first_substep)
+                                  const SubstepPlan& plan, uint32_t first_substep)
 {
     constexpr float k_sudden = 10; // m/s
     shared::StepInput input{};
     input.gravity = step.gravity;
-    input.substep = step.duration / static_cast<float>(substeps);
+    input.substep = step.duration / static_cast<float>(plan.substeps);
     input.wind = step.wind;
     input.air_density = step.air_density;
     set_gusts(input, step);
@@ -50,7 +50,8 @@ shared::StepInput make_step_input(const Solver::State& solver, const StepHistory
     input.sudden = std::max(k_sudden, (solver.passes.features ? solver.farthest_motion : 0) / step.duration);
     input.first_substep = first_substep;
     input.first_pair_pass = history.next_pair_pass;
-    input.pair_fall = fall_of_pairs(step.gravity);
+    input.list_time = time_of_lists(static_cast<float>(plan.pairs.period) * input.substep);
+    input.pair_fall = fall_of_pairs(step.gravity, input.list_time);
     input.driven = solver.passes.moving || solver.farthest_motion > 0 ? 1 : 0;
     input.edited = history.depenetration_due ? 1 : 0;
     return input;

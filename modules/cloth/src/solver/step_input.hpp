@@ -6,9 +6,9 @@
 namespace voile
 {
 
-// The input of a step with so many substeps of level 0. `first_substep`: counted over all steps.
+// The input of a step. `first_substep`: counted over all steps.
 shared::StepInput make_step_input(const Solver::State& solver, const StepHistory& history, const Step& step,
-                                  uint32_t substeps, uint32_t first_substep);
+                                  const SubstepPlan& plan, uint32_t first_substep);
 
 // Writes it for the passes that follow. Begins in the scope of transfers; ends in that of compute.
 void record_step_input(gpu::Recorder& recorder, const DeviceState& device, const shared::StepInput& input);
