@@ -2,15 +2,11 @@
 // query.
 //
 // The including kernel declares `padded_boxes[]` and defines before the include what mesh_traversal.glsl expects. visit_leaf
-// is called with a count of 1, once per triangle.
+// is called with a count of 1, once per triangle. VOILE_LEAVES_VISITED(query), if it is defined, is called after every few leaves.
 #ifndef VOILE_PADDED_GLSL
 #define VOILE_PADDED_GLSL
 
 #include "colliders/padded_box.glsl"
-
-// Leaves that wait until a thread has several. Neighboring threads find theirs at different iterations. Taking them
-// together keeps the triangle tests out of the loop over nodes.
-const uint k_waiting_leaves = 8;
 
 // A box whose children come next. The ancestors of a box are its index modulo the widths of their levels, so the stack is one
 // word: bit d is set if the second child of the current ancestor on level d is still to visit.
@@ -84,6 +80,9 @@ void traverse_padded(inout VOILE_QUERY query, uint first_box, uint first_leaf, u
         }
         for (uint i = 0; i < waiting; ++i)
             visit_leaf(query, first_leaf + leaves[i], 1);
+#ifdef VOILE_LEAVES_VISITED
+        VOILE_LEAVES_VISITED(query);
+#endif
         waiting = 0;
     } while (!done);
 }

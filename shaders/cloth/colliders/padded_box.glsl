@@ -6,4 +6,8 @@
 
 Box padded_box(uint index) { return Box(padded_boxes[index].min, padded_boxes[index].max); }
 
+// Leaves that wait until a thread of a traversal has several. Neighboring threads find theirs at different iterations. Taking
+// them together keeps the triangle tests out of the loop over nodes.
+const uint k_waiting_leaves = 8;
+
 #endif

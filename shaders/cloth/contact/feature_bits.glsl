@@ -35,4 +35,32 @@ uint bits_of(Chunk chunk, uint word)
     return has_bits() ? bits & feature_bits[k_bit_words * (gl_LocalInvocationID.x / push.lanes) + word] : bits;
 }
 
+// A walk over the features of a chunk that may be near a piece of the vertex, in their order.
+struct ChunkWalk
+{
+    uint word; // the next one
+    uint bits; // the rest of the word before it
+};
+
+ChunkWalk walk_chunk(Chunk chunk) { return ChunkWalk(chunk.first / 32, 0); }
+
+// The next feature whose box overlaps that of the piece. One loop for all of them: what is visited stands in one loop of the
+// caller's, whose rounds are as many as there are overlaps, also on CPU devices.
+bool next_feature(inout ChunkWalk walk, Chunk chunk, Box piece, out uint f)
+{
+    f = 0;
+    while (walk.bits != 0 || 32 * walk.word < chunk.end)
+    {
+        if (walk.bits == 0)
+            walk.bits = bits_of(chunk, walk.word++);
+        if (walk.bits == 0)
+            continue;
+        f = 32 * (walk.word - 1) + findLSB(walk.bits);
+        walk.bits &= walk.bits - 1;
+        if (overlap(piece, swept_box(loaded_feature(f))))
+            return true;
+    }
+    return false;
+}
+
 #endif

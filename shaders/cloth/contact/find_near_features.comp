@@ -235,14 +235,10 @@ void search_chunk(inout FeatureSearch search, Chunk chunk, Space space, uint lan
     {
         if (!select_piece(search, space, i) || !(chunk.all || overlap(search.box, chunk_box())))
             continue;
-        for (uint word = chunk.first / 32; 32 * word < chunk.end; ++word)
-            for (uint bits = bits_of(chunk, word); bits != 0; bits &= bits - 1)
-            {
-                const uint f = 32 * word + findLSB(bits);
-                const NearFeature near = loaded_feature(f);
-                if (overlap(search.box, swept_box(near)))
-                    visit_feature(search, loaded[f], near);
-            }
+        ChunkWalk walk = walk_chunk(chunk);
+        uint f;
+        while (next_feature(walk, chunk, search.box, f))
+            visit_feature(search, loaded[f], loaded_feature(f));
     }
 }
 

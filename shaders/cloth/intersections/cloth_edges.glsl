@@ -9,13 +9,21 @@
 #ifndef VOILE_CLOTH_EDGES_GLSL
 #define VOILE_CLOTH_EDGES_GLSL
 
+#include "colliders/padded_box.glsl"
+
 struct EdgesQuery
 {
     ClothTriangle edges;
     Box box;           // around the edges that are taken
     uint first_vertex; // of the cloth whose triangles they are tested against
+    // Leaves with edges that overlap them, until all leaves that wait are visited: a slot, and three bits of edges above it. So the
+    // exact predicate stands in no loop over leaves, which CPU devices would execute for each.
+    uint overlaps[k_waiting_leaves];
+    uint overlapping;
     VOILE_FOUND found;
 };
+
+const uint k_slot_bits = 29;
 
 bool enters_node(EdgesQuery query, Box node) { return overlap(query.box, node); }
 
@@ -26,6 +34,7 @@ void visit_leaf(inout EdgesQuery query, uint slot, uint count)
     const ClothTriangle own = query.edges;
     if (!is_finite(other))
         return;
+    uint edges = 0;
     for (uint i = 0; i < 3; ++i)
     {
         const uint j = (i + 1) % 3;
@@ -33,11 +42,29 @@ void visit_leaf(inout EdgesQuery query, uint slot, uint count)
             any(equal(uvec3(own.vertices[i]), other.vertices)) || any(equal(uvec3(own.vertices[j]), other.vertices));
         if ((VOILE_TAKEN_EDGES(own) & 1u << i) != 0 && !connected &&
             overlap(box_around(own.corners[i], own.corners[j]), box_of(other)))
-            take_pair(query.found, own, i, other);
+            edges |= 1u << i;
     }
+    if (edges != 0)
+        query.overlaps[query.overlapping++] = slot | edges << k_slot_bits;
+}
+
+void take_overlaps(inout EdgesQuery query)
+{
+    uint taken = 0;
+    uint edges = query.overlapping > 0 ? query.overlaps[0] >> k_slot_bits : 0;
+    while (edges != 0)
+    {
+        const uint slot = query.overlaps[taken] & ((1u << k_slot_bits) - 1);
+        take_pair(query.found, query.edges, findLSB(edges), cloth_triangle(slot, query.first_vertex));
+        edges &= edges - 1;
+        if (edges == 0 && ++taken < query.overlapping)
+            edges = query.overlaps[taken] >> k_slot_bits;
+    }
+    query.overlapping = 0;
 }
 
 #define VOILE_QUERY EdgesQuery
+#define VOILE_LEAVES_VISITED take_overlaps
 #include "colliders/padded.glsl"
 
 Box edges_box(ClothTriangle t)
@@ -65,6 +92,7 @@ EdgesQuery query_of(ClothTriangle triangle, VOILE_FOUND nothing)
     EdgesQuery query;
     query.edges = triangle;
     query.box = grown(edges_box(triangle), k_unit); // the hierarchy is of coordinates before they are snapped
+    query.overlapping = 0;
     query.found = nothing;
     return query;
 }

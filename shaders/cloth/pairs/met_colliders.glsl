@@ -68,4 +68,24 @@ void find_met(uint first, uint thread, uint layers)
     barrier();
 }
 
+// A walk over what find_met has found, in one loop: CPU devices execute each loop once at least.
+struct MetWalk
+{
+    uint word; // the next one
+    uint bits; // the rest of the word before it
+};
+
+MetWalk walk_met(bool moves) { return MetWalk(moves ? 0 : shared_met.length(), 0); }
+
+// `c`: from the first collider on.
+bool next_met(inout MetWalk walk, out uint c)
+{
+    while (walk.bits == 0 && walk.word < shared_met.length())
+        walk.bits = shared_met[walk.word++];
+    c = 32 * (walk.word - 1) + uint(findLSB(walk.bits));
+    const bool found = walk.bits != 0;
+    walk.bits &= walk.bits - 1;
+    return found;
+}
+
 #endif

@@ -11,6 +11,7 @@
 #include "shared/pair_layout.h"
 
 layout(local_size_x_id = k_constant_workgroup_size) in;
+layout(constant_id = k_constant_frame_of_one) const uint FRAME_OF_ONE = 1; // whether it finds the frame of a single cloth
 const uint COLLIDERS_MOVE = 1;
 const float k_unbounded = 1e30;
 
@@ -104,9 +105,10 @@ Surroundings surroundings_of(PatchVertex self, ClothMotion mean, bool counts, ui
     for (uint first = 0; first < push.colliders; first += gl_WorkGroupSize.x)
     {
         find_met(first, thread, cloths[self.cloth].layers);
-        for (uint word = 0; word < shared_met.length() && moves; ++word)
-            for (uint bits = shared_met[word]; bits != 0 && (clear || around.restraints.wanted); bits &= bits - 1)
-                clear = is_clear_of(around.restraints, first + 32 * word + uint(findLSB(bits)), way) && clear;
+        MetWalk walk = walk_met(moves);
+        uint k;
+        while ((clear || around.restraints.wanted) && next_met(walk, k))
+            clear = is_clear_of(around.restraints, first + k, way) && clear;
     }
     around.clear = clear && (uint(velocities[i].w) & VOILE_VERTEX_BOUND) == 0;
     around.restrained = counts && !clear;
@@ -248,7 +250,8 @@ void add_to_cloth(PatchVertex self, uint thread)
 shared bool shared_last;
 shared float shared_sums[VOILE_FRAME_SUMS];
 
-// find_islands.comp finds the frame of islands. Where there is only one cloth, the last workgroup does. By all threads.
+// find_islands.comp finds the frame of islands. Where there is only one cloth, the last workgroup does, which saves a dispatch.
+// Not on CPU devices, where all workgroups would execute it. By all threads.
 void find_frame(uint thread)
 {
     if (thread == 0)
@@ -275,6 +278,6 @@ void main()
     const PatchVertex self = patch_vertex(push.first_patch + gl_WorkGroupID.x);
     if (collides_with_itself(self.cloth)) // the cloth of all threads
         add_to_cloth(self, gl_LocalInvocationID.x);
-    if (push.cloths == 1)
+    if (FRAME_OF_ONE != 0 && push.cloths == 1)
         find_frame(gl_LocalInvocationID.x);
 }

@@ -18,7 +18,8 @@
     VOILE_CONSTANT(8, force_threads)                                                                                   \
     VOILE_CONSTANT(9, force_parts)                                                                                     \
     VOILE_CONSTANT(10, fewer_rounds)                                                                                   \
-    VOILE_CONSTANT(11, feature_part)
+    VOILE_CONSTANT(11, feature_part)                                                                                   \
+    VOILE_CONSTANT(12, frame_of_one)
 
 #ifdef __cplusplus
 

@@ -107,7 +107,8 @@ std::vector<Request> requests_of(Kernels& kernels, const SolverOptions& options,
     add_contact(kernels.contact_pairs_many, 1, 1, 1, 1);
     add(kernels.find_tangles, "cloth find tangles", shaders::k_find_tangles_comp, plain);
     add(kernels.pair_means, "cloth pair means", shaders::k_pair_means_comp, plain);
-    add(kernels.pair_clear, "cloth pair clear", shaders::k_pair_clear_comp, plain);
+    add(kernels.pair_clear, "cloth pair clear", shaders::k_pair_clear_comp,
+        {.workgroup_size = group, .frame_of_one = is_cpu(device) ? 0 : 1});
     add(kernels.find_islands, "cloth find islands", shaders::k_find_islands_comp, plain);
     add(kernels.pair_sweeps, "cloth pair sweeps", shaders::k_pair_sweeps_comp, with_lists);
     add(kernels.pair_boxes, "cloth pair boxes", shaders::k_pair_boxes_comp, plain);

@@ -188,7 +188,7 @@ void PairRecorder::find(const shared::PairPush& push, size_t from)
                                 offset_of(VOILE_PAIR_OF_PATCHES), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_clear, sets.pair_clear[from], sizes,
                                 offset_of(VOILE_PAIR_OF_PATCHES), push);
-    if (push.cloths > 1)
+    if (push.cloths > 1 || is_cpu(solver_.context.device_type)) // else pair_clear.comp finds the frame
         recorder_.dispatch_indirect(solver_.kernels.find_islands, sets.find_islands, sizes,
                                     offset_of(VOILE_PAIR_OF_CLOTHS), push);
     recorder_.dispatch_indirect(solver_.kernels.pair_sweeps, sets.pair_sweeps[from], sizes,
