@@ -100,7 +100,7 @@ Plane tangent_plane(Fan fan)
     const vec3 down = midpoints[center + high.y * columns].xyz - midpoints[center + low.y * columns].xyz;
     const vec3 x = along / max(length(along), 1e-30);
     const vec3 y = down - dot(down, x) * x;
-    return Plane(midpoints[center].xyz, half_carry_of(pair_carries[center]), fall_of(pair_carries[center]), x,
+    return Plane(midpoints[center].xyz, unpack_half_sweep(pair_carries[center]), fall_of(pair_carries[center]), x,
                  y / max(length(y), 1e-30));
 }
 
@@ -145,7 +145,7 @@ void add_row(Fan fan, Plane plane, int row, inout Row above, inout Windows windo
             continue;
         const int vertex = int(fan.center) + at.y * int(fan.columns) + at.x;
         const vec4 midpoint = midpoints[vertex];
-        const vec2 carry = in_plane(plane, half_carry_of(pair_carries[vertex]) - plane.carry);
+        const vec2 carry = in_plane(plane, unpack_half_sweep(pair_carries[vertex]) - plane.carry);
         const vec4 x = vec4(in_plane(plane, midpoint.xyz - plane.from), carry);
         const float fall = fall_between(fall_of(pair_carries[vertex]), plane.fall);
         const float sweep = length(in_plane(plane, unpack_half_sweep(floatBitsToUint(midpoint.w)))) + fall;

@@ -163,7 +163,7 @@ void begin_clock(uint cloth)
     pair_islands[cloth].rates[parity] = floatBitsToUint(1);
     pair_islands[cloth].clocks[parity] = pair_islands[cloth].falls[parity] = pair_islands[cloth].times[parity] = 0;
     const vec3 mean = mean_velocity(island_of(cloth));
-    const uint word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * mean);
+    const uint word = pack_carry(mean);
     const vec3 packed = carry_velocity(word);
     for (uint k = 0; k < 3; ++k)
         pair_islands[cloth].rounded_off[k] = mean[k] - packed[k];

@@ -26,24 +26,21 @@ struct Node
 };
 
 // m: packing a sweep rounds each axis of its half by at most half a unit.
-float fall_of(uint word)
-{
-    return falls(word) * (step_input.pair_fall + 2 * carries_in_lists() * sweep_unit(word));
-}
+float fall_of(uint word) { return falls(word) * (step_input.pair_fall + 2 * sweep_unit(word)); }
 
 // m, relative to each other. What falls freely has the same carry.
 float fall_between(float a, float b) { return a > 0 && b > 0 ? 0 : max(a, b); }
 
 Viewpoint viewpoint_of(uint vertex)
 {
-    return Viewpoint(midpoints[vertex].xyz, half_carry_of(pair_carries[vertex]), fall_of(pair_carries[vertex]));
+    return Viewpoint(midpoints[vertex].xyz, unpack_half_sweep(pair_carries[vertex]), fall_of(pair_carries[vertex]));
 }
 
 Node node_of(uint vertex, Viewpoint from)
 {
     const vec4 midpoint = midpoints[vertex];
     return Node(midpoint.xyz - from.x, unpack_half_sweep(floatBitsToUint(midpoint.w)),
-                half_carry_of(pair_carries[vertex]) - from.carry,
+                unpack_half_sweep(pair_carries[vertex]) - from.carry,
                 fall_between(fall_of(pair_carries[vertex]), from.fall), vertex);
 }
 

@@ -126,8 +126,7 @@ void main()
         return;
     const Fan fan = fan_of(cloth, i);
     const float clear = clearance(i, cloth, fan);
-    const uint carry_word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * clear * mean_velocity(island_of(cloth))) |
-                            (clear == 1 ? k_falls_bit : 0);
+    const uint carry_word = pack_carry(clear * mean_velocity(island_of(cloth))) | (clear == 1 ? k_falls_bit : 0);
     const vec3 own = velocities[i].xyz;
     const vec3 v = positions[i].w > 0 ? velocity_at_pass(own, cloths[cloth].flags) : own;
     const vec3 relative = v - velocity_at(frame_of(cloth), positions[i].xyz, 0) - carry_velocity(carry_word);
@@ -138,7 +137,7 @@ void main()
     const float part = exp2(-float(halvings_with(halvings, pair_bounds[i].sweep, memory)));
     const uint word = pack_half_sweep(0.5 * part * sweep_of(fan, cloth, relative));
     pair_carries[i] = carry_word;
-    midpoints[i] = vec4(positions[i].xyz + half_carry_of(carry_word) + unpack_half_sweep(word), uintBitsToFloat(word));
+    midpoints[i] = vec4(positions[i].xyz + unpack_half_sweep(carry_word) + unpack_half_sweep(word), uintBitsToFloat(word));
     pair_loads[i] = pair_loads[push.vertices + i] = 0;
     pair_memories[i].friction = packHalf2x16(vec2(cloths[cloth].static_friction, cloths[cloth].kinetic_friction));
 }

@@ -39,14 +39,11 @@ vec3 unpack_half_sweep(uint word)
     return uintBitsToFloat(exponent << 23) * vec3(words);
 }
 
-// How often what a packed carry says fits into the time of lists.
-float carries_in_lists() { return step_input.list_time / VOILE_PAIR_SWEEP_TIME; }
-
-// m, while lists last
-vec3 half_carry_of(uint word) { return carries_in_lists() * unpack_half_sweep(word); }
+// Half of what a vertex of this velocity, m/s, goes while lists last.
+uint pack_carry(vec3 velocity) { return pack_half_sweep(0.5 * step_input.list_time * velocity); }
 
 // m/s
-vec3 carry_velocity(uint word) { return 2 / VOILE_PAIR_SWEEP_TIME * unpack_half_sweep(word); }
+vec3 carry_velocity(uint word) { return 2 / step_input.list_time * unpack_half_sweep(word); }
 
 // 1 or 0: whether gravity accelerates what is carried so.
 float falls(uint word) { return float(word >> 31); }

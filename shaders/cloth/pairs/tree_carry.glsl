@@ -16,8 +16,8 @@ Viewpoint tree_viewpoint(vec3 x, uint cloth)
     const bool carried = 2 * pair_islands[island].clear > pair_islands[island].vertices;
     if (!carried)
         return Viewpoint(x, vec3(0), 0);
-    const uint word = pack_half_sweep(0.5 * VOILE_PAIR_SWEEP_TIME * mean_velocity(island)) | k_falls_bit;
-    return Viewpoint(x, half_carry_of(word), fall_of(word));
+    const uint word = pack_carry(mean_velocity(island)) | k_falls_bit;
+    return Viewpoint(x, unpack_half_sweep(word), fall_of(word));
 }
 
 #endif

@@ -97,7 +97,7 @@
 #define VOILE_FRAME_UNIT_DRIVE 1e-3f
 #define VOILE_FRAME_UNIT_SQUARE 1e-2f
 #define VOILE_FRAME_UNIT_MOTION 1e-5f
-// s: lists last so long at least, and sweeps at most. Packed carries are ways in that time.
+// s: lists last so long at least, and sweeps at most.
 #define VOILE_PAIR_SWEEP_TIME 3e-3f
 // Lists last for so many passes at least, and a little longer, because times are rounded.
 #define VOILE_PAIR_LISTED_PASSES 4.04f
@@ -196,7 +196,7 @@ struct PairIsland
 };
 
 // Where a vertex may be until the lists are made again, in the frame of its island. The clock carries `from`, in
-// VOILE_PAIR_SWEEP_TIME by twice what `carry` says (sweep.glsl). The vertex may be within `reach` of the segment from
+// StepInput::list_time by twice what `carry` says (sweep.glsl). The vertex may be within `reach` of the segment from
 // there to `sweep` beyond. Then no two primitives that no list contains can meet.
 struct PairSweep
 {
