@@ -53,6 +53,14 @@ vec3 carry_until_next(uint word, vec3 fall)
     return pair_interval() * carry_velocity(word) + falls(word) * fall;
 }
 
+// m/s, if the clock runs as fast as time; `lag`: s before the pass. With the mean until the next pass, cloth that falls faster
+// than its island counted as slower than it is.
+vec3 carry_at_pass(uint word, uint cloth, float lag)
+{
+    const vec3 fall = rounded_off(cloth) + (clock_at_pass(cloth) - lag) * step_input.gravity;
+    return carry_velocity(word) + falls(word) * fall;
+}
+
 // Relative to another vertex of the island. What is carried equally has exactly 0, whatever a compiler does with sums.
 vec3 carry_until_next(uint word, uint other, vec3 fall)
 {

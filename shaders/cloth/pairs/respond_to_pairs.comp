@@ -257,9 +257,10 @@ void respond(uvec4 entry, Self self, Gather sum)
     pair_bounds[i].guard.from = positions[i].xyz;
     pair_bounds[i].guard.residual = residuals[i];
     pair_bounds[i].guard.massless = sum.massless > 0 ? 1 : 0;
-    const vec3 carried = self.rate * turned(self.turn, carry_until_next(self.carry, self.fall));
+    const bool verlet = (cloths[entry.y].flags & VOILE_CLOTH_VERLET) != 0;
+    const vec3 carry = turned(self.turn, carry_at_pass(self.carry, entry.y, verlet ? seconds(push.lag) : 0));
     const vec3 frame = velocity_at(frame_of(entry.y), positions[i].xyz, time_at_pass(entry.y));
-    pair_bounds[i].speed = length(v - frame - carried / pair_interval());
+    pair_bounds[i].speed = length(v - frame - self.rate * carry);
 }
 
 void main()
